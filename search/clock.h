@@ -50,4 +50,15 @@ struct Allotment {
 // opponent's clock and ours, measured. Empty when time is unlimited.
 std::optional<Allotment> allot(const TimeLeft& left, int moves_left, Milliseconds lag);
 
+// How late thinks end after the moment they were asked to, on this machine as loaded as it is:
+// the greatest delay seen, old ones fading by a twentieth a think.
+class LagMeter {
+   public:
+    void record(Milliseconds late);
+    Milliseconds reserve() const;
+
+   private:
+    double reserve_ = 0;  // ms
+};
+
 }  // namespace search

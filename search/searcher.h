@@ -3,82 +3,66 @@
 // another.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/game.h"
+#include "search/analysis.h"
 #include "search/clock.h"
+#include "search/crew.h"
+#include "search/limits.h"
 #include "search/params.h"
+#include "search/tree_search.h"
+#include "search/worker.h"
 
 namespace search {
-
-using engine::Move;
-
-// What bounds one think; nothing set means until stop().
-struct Limits {
-    std::optional<std::uint64_t> simulations;  // run by this think
-    std::optional<Milliseconds> time;          // exactly this long
-    std::optional<TimeLeft> clock;             // as the clock thinks best
-    bool ponder = false;                       // limits take effect at ponder_hit()
-    std::vector<Move> only, avoid;             // root moves; `only` empty: all
-    std::optional<Milliseconds> report_every;  // no reports unless set
-};
-
-// One root move as the search sees it now, best first in Analysis::moves.
-struct MoveAnalysis {
-    Move move;
-    std::uint64_t visits = 0;
-    float prior = 0;              // 0..1
-    float value = 0;              // mean, in [-1, 1], as the player to move at the root sees it
-    float lcb = 0;                // lower confidence bound of `value`
-    std::vector<Move> variation;  // principal variation, `move` first
-    std::vector<std::uint64_t> variation_visits;  // one a move of it
-};
-
-struct Analysis {
-    std::uint64_t visits = 0;       // of the root, kept ones included
-    std::uint64_t simulations = 0;  // of this think
-    float value = 0;                // of the root, as the player to move sees it
-    float lead = 0;                 // mean lead of the player to move, where the game counts points
-    Milliseconds elapsed{0};
-    int depth = 0, deepest = 0;  // mean and greatest length of a simulation's descent
-    float memory_used = 0;       // share of the budget, 0..1
-    std::vector<MoveAnalysis> moves;
-    // Expected owner of every point in [-1, 1], +1 the root's mover; empty in games without
-    // territory.
-    std::vector<float> owners;
-};
 
 template <engine::Game G>
 class Searcher {
    public:
-    explicit Searcher(const SearchParams& params);
-    ~Searcher();  // stops
+    using Report = std::function<void(const Analysis&)>;
 
-    // Takes effect at the next think; a changed memory budget or thread count rebuilds the tree.
+    // Fails with engine::Error when the system grants no memory for the tree.
+    explicit Searcher(const SearchParams& params) { rebuild(params); }
+    Searcher(const Searcher&) = delete;
+    Searcher& operator=(const Searcher&) = delete;
+    ~Searcher() { stop(); }
+
+    // A changed memory budget forgets the tree; changed threads or seed start new workers.
     void set_params(const SearchParams& params);
-    const SearchParams& params() const;
+    const SearchParams& params() const { return params_; }
 
+    const G& position() const { return search_->root(); }
     // The position to think about. Keeps the part of the tree that the position shares when it
-    // comes after the present one by moves of the tree (`moves` since then); else starts anew.
+    // comes after the present one by at most two moves of the tree; else starts anew.
     void set_position(const G& root);
+    // Plays a legal move in the present position and keeps what the tree has below it.
     void advance(Move move);
-    void clear();  // forgets the tree
+    // Forgets the tree and starts the random numbers anew: what follows is as in a new Searcher.
+    void clear();
 
-    // Returns at once. `report` and `done` are called from a thread of the search; `done` exactly
-    // once a think, after which the search is idle. While it runs only stop(), interrupt(),
-    // ponder_hit() and analysis() may be called.
-    void start(const Limits& limits, std::function<void(const Analysis&)> report,
-               std::function<void(const Analysis&)> done);
+    // Returns at once. `report` and `done` (either may be empty) are called from a thread of the
+    // search; `done` exactly once a think, after which the search is idle. While it runs only
+    // stop(), interrupt(), ponder_hit(), thinking() and analysis() may be called; a callback may
+    // call no others, and not stop().
+    void start(const Limits& limits, Report report, Report done);
     // Ends the think within 5 ms and returns when `done` has returned.
-    void stop();
+    void stop() {
+        interrupt();
+        crew_->wait();
+    }
+    // Asks for the end and returns at once; from any thread.
+    void interrupt();
     void ponder_hit();
-    bool thinking() const;
+    bool thinking() const { return !crew_->idle(); }
 
     // A consistent picture, at any time, from any thread; the last think's when idle.
     Analysis analysis(int most_moves = 0x7fffffff, int variation_length = 32) const;
@@ -86,8 +70,337 @@ class Searcher {
     // start, wait for the end, return the picture. For callers without a protocol.
     Analysis think(const Limits& limits);
 
+    // What the next clocked think will keep back.
+    Milliseconds lag() const { return Milliseconds(params_.lag_ms) + late_.reserve(); }
+
    private:
-    // …
+    using Clock = std::chrono::steady_clock;
+
+    void rebuild(const SearchParams& params);
+    void hire();
+    void reset_tallies();
+    std::vector<Move> line_to(const G& root) const;
+    void begin(const Limits& limits);
+    void take_effect(const Limits& limits);
+    void run(int index, const Report& report, const Report& done);
+    void work(Worker<G>& worker);
+    void conduct(const Report& report, const Report& done);
+    std::optional<TimePoint> next_event(TimePoint next_report) const;
+    bool over() const;
+    void add_owners(Analysis& picture) const;
+    static Milliseconds since(TimePoint start) {
+        return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
+    }
+    static int moves_to_come(const G& game);
+
+    SearchParams params_;
+    std::unique_ptr<TreeSearch<G>> search_;
+    std::vector<std::unique_ptr<Worker<G>>> workers_;
+    LagMeter late_;
+
+    // Readers of the tree against whoever moves its parts; never taken in a simulation.
+    mutable std::mutex picture_mutex_;
+    TimePoint started_{};
+    std::string fault_;
+    std::optional<Milliseconds> elapsed_;  // once the think is over
+
+    // The conductor of a think against its owner and workers.
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    Limits limits_;
+    std::optional<Schedule> schedule_;  // once the limits have taken effect
+    TimePoint effective_{};
+    std::optional<float> previous_value_;
+    std::size_t working_ = 0;
+    bool interrupted_ = false;
+
+    std::unique_ptr<Team> team_ = std::make_unique<Team>();
+    std::unique_ptr<Crew> crew_;  // the workers, then the conductor; last, to end first
 };
+
+template <engine::Game G>
+void Searcher<G>::rebuild(const SearchParams& params) {
+    params_ = params;
+    const std::lock_guard lock(picture_mutex_);
+    search_.reset();
+    search_ = std::make_unique<TreeSearch<G>>(params);
+    hire();
+}
+
+template <engine::Game G>
+void Searcher<G>::hire() {
+    crew_.reset();
+    workers_.clear();
+    for (int i = 0; i < params_.threads; ++i) {
+        const auto seed = static_cast<std::uint64_t>(params_.seed) << 32 | static_cast<unsigned>(i);
+        workers_.push_back(std::make_unique<Worker<G>>(std::make_unique<RolloutLeaf<G>>(seed)));
+    }
+    crew_ = std::make_unique<Crew>(params_.threads + 1);
+}
+
+template <engine::Game G>
+void Searcher<G>::set_params(const SearchParams& params) {
+    crew_->wait();
+    const auto old = std::exchange(params_, params);
+    if (old.memory_mib != params.memory_mib) {
+        const G root = position();
+        rebuild(params);
+        return set_position(root);
+    }
+    const std::lock_guard lock(picture_mutex_);
+    search_->set_params(params);
+    if (old.threads != params.threads || old.seed != params.seed) hire();
+}
+
+template <engine::Game G>
+void Searcher<G>::set_position(const G& root) {
+    crew_->wait();
+    const std::lock_guard lock(picture_mutex_);
+    if (root == position()) return;
+    reset_tallies();
+    const auto line = line_to(root);
+    if (line.empty()) return search_->set_root(root);
+    for (const Move move : line) search_->advance(move);
+}
+
+// The moves of the tree, two at most, from the present position to `root`; empty when there is no
+// such line.
+template <engine::Game G>
+std::vector<Move> Searcher<G>::line_to(const G& root) const {
+    const Tree& tree = search_->tree();
+    const auto visited = [&](NodeId parent, const Edge& edge) {
+        const NodeId child = tree.child(parent, edge);
+        return child != no_node && tree[child].visits > 0 ? child : no_node;
+    };
+    for (const Edge& first : tree.edges(tree.root())) {
+        const NodeId node = visited(tree.root(), first);
+        if (node == no_node) continue;
+        G after_one = position();
+        after_one.play(first.move);
+        if (after_one == root) return {first.move};
+        if (after_one.to_play() == root.to_play() || !tree[node].expanded()) continue;
+        for (const Edge& second : tree.edges(node)) {
+            if (visited(node, second) == no_node) continue;
+            G after_two = after_one;
+            after_two.play(second.move);
+            if (after_two == root) return {first.move, second.move};
+        }
+    }
+    return {};
+}
+
+template <engine::Game G>
+void Searcher<G>::advance(Move move) {
+    crew_->wait();
+    const std::lock_guard lock(picture_mutex_);
+    search_->advance(move);
+    reset_tallies();
+}
+
+template <engine::Game G>
+void Searcher<G>::clear() {
+    crew_->wait();
+    const std::lock_guard lock(picture_mutex_);
+    search_->set_root(G(position()));
+    hire();
+}
+
+template <engine::Game G>
+void Searcher<G>::reset_tallies() {
+    for (const auto& worker : workers_)
+        if (auto* tally = worker->tally()) tally->reset();
+}
+
+template <engine::Game G>
+void Searcher<G>::start(const Limits& limits, Report report, Report done) {
+    crew_->wait();
+    begin(limits);
+    crew_->start([this, report = std::move(report), done = std::move(done)](int index) {
+        run(index, report, done);
+    });
+}
+
+template <engine::Game G>
+void Searcher<G>::begin(const Limits& limits) {
+    {
+        const std::lock_guard lock(picture_mutex_);
+        MoveFilter filter;
+        filter.restrict(limits.only, limits.avoid);
+        search_->restrict_root(filter, limits.only);
+        for (const auto& worker : workers_) worker->reset_counts();
+        started_ = Clock::now();
+        fault_.clear();
+        elapsed_.reset();
+    }
+    const std::lock_guard lock(mutex_);
+    limits_ = limits;
+    team_ = std::make_unique<Team>();
+    team_->early_end = params_.early_end;
+    schedule_.reset();
+    const auto now = standing(search_->tree(), search_->filter());
+    previous_value_.reset();
+    if (now.first_visits > 0) previous_value_ = now.value;
+    working_ = workers_.size();
+    interrupted_ = false;
+    if (!limits.ponder) take_effect(limits);
+}
+
+// With mutex_ held.
+template <engine::Game G>
+void Searcher<G>::take_effect(const Limits& limits) {
+    effective_ = Clock::now();
+    schedule_.emplace(limits, params_, moves_to_come(position()), lag());
+    if (limits.simulations) team_->limit = *limits.simulations;
+}
+
+template <engine::Game G>
+void Searcher<G>::interrupt() {
+    const std::lock_guard lock(mutex_);
+    interrupted_ = true;
+    team_->stop = true;
+    changed_.notify_all();
+}
+
+template <engine::Game G>
+void Searcher<G>::ponder_hit() {
+    const std::lock_guard lock(mutex_);
+    if (!schedule_) take_effect(limits_);
+    changed_.notify_all();
+}
+
+template <engine::Game G>
+void Searcher<G>::run(int index, const Report& report, const Report& done) {
+    const auto worker = static_cast<std::size_t>(index);
+    if (worker == workers_.size()) return conduct(report, done);
+    work(*workers_[worker]);
+    const std::lock_guard lock(mutex_);
+    --working_;
+    changed_.notify_all();
+}
+
+template <engine::Game G>
+void Searcher<G>::work(Worker<G>& worker) {
+    const auto flip = [this] {
+        const std::lock_guard lock(picture_mutex_);
+        search_->flip();
+    };
+    try {
+        worker.work(*search_, *team_, flip);
+    } catch (const std::exception& error) {
+        {
+            const std::lock_guard lock(picture_mutex_);
+            if (fault_.empty()) fault_ = error.what();
+        }
+        interrupt();
+    }
+}
+
+// Watches over the think on a thread of its own, so that no rollout, however long, delays the
+// clock.
+template <engine::Game G>
+void Searcher<G>::conduct(const Report& report, const Report& done) {
+    std::unique_lock lock(mutex_);
+    const auto every = limits_.report_every;
+    TimePoint next_report = every ? Clock::now() + *every : TimePoint::max();
+    while (!over()) {
+        if (const auto event = next_event(next_report))
+            changed_.wait_until(lock, *event);
+        else
+            changed_.wait(lock);
+        if (Clock::now() < next_report || over()) continue;
+        next_report = Clock::now() + *every;
+        lock.unlock();
+        if (report) report(analysis());
+        lock.lock();
+    }
+    const auto asked = Clock::now();
+    const auto hard = schedule_ ? schedule_->hard() : std::nullopt;
+    team_->stop = true;
+    changed_.wait(lock, [&] { return working_ == 0; });
+    lock.unlock();
+    {
+        const std::lock_guard picture(picture_mutex_);
+        elapsed_ = since(started_);
+    }
+    if (done) done(analysis());
+    // Against the deadline where one was missed, else against the decision to end.
+    const auto due = hard ? std::min(asked, effective_ + *hard) : asked;
+    late_.record(since(due));
+}
+
+// With mutex_ held: when to look again, if ever unasked.
+template <engine::Game G>
+std::optional<TimePoint> Searcher<G>::next_event(TimePoint next_report) const {
+    constexpr Milliseconds step{10};
+    std::optional<TimePoint> next;
+    if (next_report != TimePoint::max()) next = next_report;
+    if (!schedule_ || !schedule_->hard()) return next;
+    const auto check = std::min(effective_ + *schedule_->hard(), Clock::now() + step);
+    return next ? std::min(*next, check) : check;
+}
+
+// With mutex_ held.
+template <engine::Game G>
+bool Searcher<G>::over() const {
+    if (interrupted_) return true;
+    // All may have left because the root has nothing to search; an endless think goes on waiting.
+    if (!schedule_) return false;
+    if (working_ == 0 && !limits_.endless()) return true;
+    std::uint64_t simulations = 0;
+    for (const auto& worker : workers_) simulations += worker->simulations();
+    const std::lock_guard picture(picture_mutex_);
+    return schedule_->over(since(effective_), simulations,
+                           standing(search_->tree(), search_->filter()), previous_value_);
+}
+
+template <engine::Game G>
+Analysis Searcher<G>::analysis(int most_moves, int variation_length) const {
+    const std::lock_guard lock(picture_mutex_);
+    const Tree& tree = search_->tree();
+    const Node& root = tree[tree.root()];
+    Analysis picture;
+    picture.visits = root.visits;
+    picture.value = -root.mean();
+    picture.elapsed = elapsed_.value_or(since(started_));
+    std::uint64_t steps = 0, deepest = 0;
+    for (const auto& worker : workers_) {
+        picture.simulations += worker->simulations();
+        steps += worker->steps();
+        deepest = std::max(deepest, worker->deepest());
+    }
+    picture.depth = picture.simulations ? static_cast<int>(steps / picture.simulations) : 0;
+    picture.deepest = static_cast<int>(deepest);
+    picture.memory_used = static_cast<float>(tree.share_used());
+    picture.moves = describe_moves(tree, search_->filter(), most_moves, variation_length);
+    picture.fault = fault_;
+    add_owners(picture);
+    return picture;
+}
+
+template <engine::Game G>
+void Searcher<G>::add_owners(Analysis& picture) const {
+    OwnerTally::Sum sum;
+    for (const auto& worker : workers_)
+        if (const auto* tally = worker->tally()) tally->add_to(sum);
+    if (sum.rollouts == 0) return;
+    const double sign = position().to_play() == engine::Player::first ? 1 : -1;
+    const double scale = sign / static_cast<double>(sum.rollouts);
+    picture.lead = static_cast<float>(scale * sum.lead);
+    for (const double owner : sum.owners)
+        picture.owners.push_back(static_cast<float>(scale * owner));
+}
+
+template <engine::Game G>
+Analysis Searcher<G>::think(const Limits& limits) {
+    start(limits, {}, {});
+    crew_->wait();
+    return analysis();
+}
+
+template <engine::Game G>
+int Searcher<G>::moves_to_come(const G& game) {
+    if constexpr (requires { game.moves_to_come(); }) return game.moves_to_come();
+    return 30;
+}
 
 }  // namespace search

@@ -1,0 +1,106 @@
+// How a leaf of the tree is judged: by playing the game out, by a network, or by both. An
+// evaluator belongs to one worker thread; what it has learnt of the points' owners may be read
+// from any.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/base/random.h"
+#include "engine/game.h"
+#include "engine/rollout.h"
+#include "search/tree.h"
+
+namespace search {
+
+// One leaf, from the descent that found it to the back-up that absorbs it.
+template <engine::Game G>
+struct Leaf {
+    G game;
+    Path path;
+    bool expands = false;       // this descent claimed the leaf and must expand it
+    engine::MoveList moves;     // the legal ones, when it expands
+    std::vector<float> priors;  // one a move, summing to 1, or empty for equal ones
+    float value = 0;            // as the player to move sees it
+};
+
+// Sums over rollouts of who owned each point at the end and by how much the first player led.
+// One thread adds, any thread reads.
+class OwnerTally {
+   public:
+    static constexpr std::size_t most_points = 1024;
+
+    void add(const engine::RolloutResult& result);
+    void reset();
+
+    // Adds this tally to the sums of several.
+    struct Sum {
+        std::int64_t rollouts = 0;
+        double lead = 0;
+        std::vector<double> owners;
+    };
+    void add_to(Sum& sum) const;
+
+   private:
+    std::atomic<std::int64_t> rollouts_ = 0;
+    std::atomic<double> lead_ = 0;
+    std::atomic<std::size_t> points_ = 0;
+    std::array<std::atomic<std::int32_t>, most_points> owners_{};
+};
+
+template <engine::Game G>
+class LeafEvaluator {
+   public:
+    virtual ~LeafEvaluator() = default;
+    // Fills priors and value of each, and may reorder its moves.
+    virtual void evaluate(std::span<Leaf<G>> leaves) = 0;
+    // Whether it pays to judge a leaf that another worker is judging already.
+    virtual bool shares_leaves() const = 0;
+    virtual OwnerTally* tally() { return nullptr; }
+};
+
+// Monte Carlo: equal priors, and the result of one game played to the end.
+template <engine::Game G>
+class RolloutLeaf final : public LeafEvaluator<G> {
+   public:
+    explicit RolloutLeaf(std::uint64_t seed) : random_(seed) {}
+
+    void evaluate(std::span<Leaf<G>> leaves) override {
+        for (Leaf<G>& leaf : leaves) {
+            if (leaf.expands) shuffle(leaf.moves);
+            leaf.priors.clear();
+            leaf.value = roll_out(leaf.game);
+        }
+    }
+    bool shares_leaves() const override { return true; }
+    OwnerTally* tally() override { return &tally_; }
+
+   private:
+    float roll_out(const G& game) {
+        const auto result = rollouts_.play(game, random_);
+        tally_.add(result);
+        return engine::value_for(game.to_play(), result.outcome);
+    }
+
+    // Unvisited moves are tried in the order of the list, which must not favour a corner.
+    void shuffle(engine::MoveList& moves) {
+        order_.clear();
+        for (const engine::Move move : moves) order_.push_back(move);
+        moves.clear();
+        for (auto left = static_cast<int>(order_.size()); left > 0; --left) {
+            auto& drawn = order_[static_cast<std::size_t>(random_.below(left))];
+            moves.push(drawn);
+            drawn = order_[static_cast<std::size_t>(left - 1)];
+        }
+    }
+
+    typename engine::RolloutsOf<G>::type rollouts_;
+    engine::Random random_;
+    OwnerTally tally_;
+    std::vector<engine::Move> order_;
+};
+
+}  // namespace search

@@ -1,0 +1,58 @@
+// Which edge a descent takes: one small type a rule. A rule is prepared once a node with its
+// visit count and then scores each edge by what is known of its child.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "search/tree.h"
+
+namespace search {
+
+// UCB1 (Auer et al. 2002) as UCT uses it (Kocsis & Szepesvari 2006): mean value as the mover sees
+// it plus exploration * sqrt(ln N / n). An unvisited move scores `unvisited`; above any value plus
+// bound, that means each is tried once before any is tried twice.
+struct Ucb1 {
+    float exploration = 0.5f;
+    float unvisited = 10;
+
+    class AtNode {
+       public:
+        AtNode(const Ucb1& rule, const Node& parent)
+            : rule_(rule),
+              log_visits_(std::log(
+                  static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
+                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))) {}
+
+        float score(const Edge&, const Node* child) const {
+            if (!child) return rule_.unvisited;
+            const std::uint32_t losses = child->in_flight.load(std::memory_order_relaxed);
+            const auto tries = child->visits.load(std::memory_order_relaxed) + losses;
+            if (tries == 0) return rule_.unvisited;
+            return child->mean(losses) +
+                   rule_.exploration * std::sqrt(log_visits_ / static_cast<float>(tries));
+        }
+
+       private:
+        const Ucb1& rule_;
+        float log_visits_;
+    };
+};
+
+// The best-scored edge of an expanded node among those that `allowed` is true of, the first of
+// equals; nullptr when there is none.
+template <class Rule, class Allowed>
+Edge* select(Tree& tree, NodeId id, const Rule& rule, Allowed allowed) {
+    const typename Rule::AtNode at_node(rule, tree[id]);
+    Edge* best = nullptr;
+    float best_score = 0;
+    for (Edge& edge : tree.edges_to_enter(id)) {
+        if (!allowed(edge.move)) continue;
+        const NodeId child = edge.child.load(std::memory_order_acquire);
+        const float score = at_node.score(edge, child == no_node ? nullptr : &tree[child]);
+        if (!best || score > best_score) best = &edge, best_score = score;
+    }
+    return best;
+}
+
+}  // namespace search

@@ -1,0 +1,202 @@
+#include "search/tree.h"
+
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <new>
+
+#include "engine/base/error.h"
+
+namespace search {
+
+namespace {
+
+constexpr std::size_t node_units = sizeof(Node) / 8, edge_units = sizeof(Edge) / 8;
+// Kept back in each half, so that a new root can always be copied.
+constexpr std::size_t root_reserve = 4 * (node_units + 640 * edge_units);
+constexpr std::size_t least_budget = std::size_t{1} << 20, most_budget = std::size_t{32} << 30;
+
+constexpr std::uint32_t least_exponent = 96;  // 2^-31 in the bits of a float
+
+std::byte* map(std::size_t bytes) {
+    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return memory == MAP_FAILED ? nullptr : static_cast<std::byte*>(memory);
+}
+
+void copy_counts(const Node& from, Node& to) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    to.value_sum.store(from.value_sum.load(relaxed), relaxed);
+    to.rollout_sum.store(from.rollout_sum.load(relaxed), relaxed);
+    to.visits.store(from.visits.load(relaxed), relaxed);
+    to.rollout_visits.store(from.rollout_visits.load(relaxed), relaxed);
+    to.stage.store(from.stage.load(relaxed), relaxed);
+    to.ending.store(from.ending.load(relaxed), relaxed);
+}
+
+}  // namespace
+
+std::uint16_t pack_prior(float prior) {
+    const auto bits = std::bit_cast<std::uint32_t>(std::clamp(prior, 0.0f, 1.0f)) + (1u << 11);
+    const auto least = least_exponent << 23;
+    return bits < least ? std::uint16_t{0} : static_cast<std::uint16_t>((bits - least) >> 12);
+}
+
+float unpack_prior(std::uint16_t packed) {
+    if (packed == 0) return 0;
+    return std::bit_cast<float>((std::uint32_t{packed} << 12) + (least_exponent << 23));
+}
+
+float Node::mean(std::uint32_t losses) const {
+    const double n = visits.load(std::memory_order_relaxed) + double{1} * losses;
+    if (n == 0) return 0;
+    const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed)) / value_unit;
+    return static_cast<float>((sum - losses) / n);
+}
+
+Tree::Tree(std::size_t budget_bytes) {
+    auto bytes = std::clamp(budget_bytes, least_budget, most_budget);
+    while (!(base_ = map(bytes)) && bytes / 2 >= least_budget) bytes /= 2;
+    if (!base_) engine::fail("out of memory: cannot reserve {} bytes for the tree", bytes);
+    half_units_ = bytes / unit / 2;
+    clear();
+}
+
+Tree::~Tree() { ::munmap(base_, 2 * half_units_ * unit); }
+
+NodeId Tree::child(NodeId parent, const Edge& edge) const {
+    const NodeId id = edge.child.load(std::memory_order_acquire);
+    // A passive node's reference to the active half is to what was there before the flip.
+    return id != no_node && active(id) && !active(parent) ? no_node : id;
+}
+
+double Tree::share_used() const {
+    const auto left = end_ - std::min(end_, next_.load(std::memory_order_relaxed));
+    return static_cast<double>(half_units_ - left + passive_used_) /
+           static_cast<double>(2 * half_units_);
+}
+
+NodeId Tree::enter(Edge& edge) {
+    NodeId id = edge.child.load(std::memory_order_acquire);
+    if (id == no_node || !active(id)) {
+        NodeId made = no_node;
+        if (id != no_node) {
+            made = copy(id, root_reserve);
+        } else if ((made = allocate(node_units, root_reserve)) != no_node) {
+            new (&node(made)) Node;
+        }
+        if (made == no_node) return no_node;
+        if (edge.child.compare_exchange_strong(id, made, std::memory_order_acq_rel)) id = made;
+    }
+    node(id).in_flight.fetch_add(1, std::memory_order_relaxed);
+    return id;
+}
+
+void Tree::mark(NodeId id, Ending ending) {
+    node(id).ending.store(ending, std::memory_order_relaxed);
+}
+
+bool Tree::claim(NodeId id) {
+    auto fresh = Stage::fresh;
+    return node(id).stage.compare_exchange_strong(fresh, Stage::claimed);
+}
+
+bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const float> priors) {
+    const auto count = static_cast<std::size_t>(moves.size());
+    assert(priors.empty() || priors.size() == count);
+    const NodeId first = allocate(count * edge_units, root_reserve);
+    if (first == no_node) return unclaim(id), false;
+    Node& parent = node(id);
+    parent.first_edge = first;
+    parent.edge_count = static_cast<std::uint16_t>(count);
+    const auto equal = pack_prior(1 / static_cast<float>(std::max<std::size_t>(count, 1)));
+    const auto edges = edge_span(parent);
+    for (std::size_t i = 0; i < count; ++i) {
+        Edge& edge = *new (&edges[i]) Edge;
+        edge.move = moves[static_cast<int>(i)];
+        edge.packed_prior = priors.empty() ? equal : pack_prior(priors[i]);
+    }
+    parent.stage.store(Stage::expanded, std::memory_order_release);
+    return true;
+}
+
+void Tree::back_up(const Path& path, float value) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    auto amount = fixed_point(value);
+    for (auto id = path.rbegin(); id != path.rend(); ++id) {
+        amount = -amount;
+        Node& passed = node(*id);
+        passed.value_sum.fetch_add(amount, relaxed);
+        passed.visits.fetch_add(1, relaxed);
+        passed.in_flight.fetch_sub(1, relaxed);
+    }
+}
+
+void Tree::withdraw(const Path& path) {
+    for (const NodeId id : path) node(id).in_flight.fetch_sub(1, std::memory_order_relaxed);
+}
+
+void Tree::flip() {
+    const NodeId old_root = root_;
+    assert(node(old_root).in_flight == 0);
+    passive_used_ = half_units_;
+    activate(1 - active_half_);
+    root_ = copy(old_root, 0);
+    assert(root_ != no_node);
+}
+
+void Tree::clear() {
+    passive_used_ = 0;
+    activate(0);
+    root_ = allocate(node_units, 0);
+    new (&node(root_)) Node;
+}
+
+bool Tree::advance(engine::Move move) {
+    for (Edge& edge : edge_span(node(root_))) {
+        if (edge.move != move || edge.child == no_node) continue;
+        const NodeId id = edge.child;
+        const NodeId next = active(id) ? id : copy(id, 0);
+        if (next == no_node) return false;
+        root_ = next;
+        return true;
+    }
+    return false;
+}
+
+NodeId Tree::allocate(std::size_t units, std::size_t reserve) {
+    // Checked first, so that the counter, once past the end, does not run away.
+    if (next_.load(std::memory_order_relaxed) + units + reserve > end_) return no_node;
+    const auto first = next_.fetch_add(units, std::memory_order_relaxed);
+    return first + units + reserve > end_ ? no_node : static_cast<NodeId>(first);
+}
+
+NodeId Tree::copy(NodeId passive, std::size_t reserve) {
+    const Node& from = node(passive);
+    const auto old_edges = edge_span(from);
+    const NodeId id = allocate(node_units + old_edges.size() * edge_units, reserve);
+    if (id == no_node) return no_node;
+    Node& to = *new (&node(id)) Node;
+    copy_counts(from, to);
+    to.edge_count = from.edge_count;
+    to.first_edge = static_cast<NodeId>(id + node_units);
+    const auto new_edges = edge_span(to);
+    for (std::size_t i = 0; i < old_edges.size(); ++i) {
+        Edge& edge = *new (&new_edges[i]) Edge;
+        edge.move = old_edges[i].move;
+        edge.packed_prior = old_edges[i].packed_prior;
+        edge.child.store(child(passive, old_edges[i]), std::memory_order_relaxed);
+    }
+    return id;
+}
+
+void Tree::activate(int half) {
+    active_half_ = half;
+    const auto first = static_cast<std::size_t>(half) * half_units_;
+    next_ = std::max<std::size_t>(first, 1);  // unit 0 is no_node
+    end_ = first + half_units_;
+}
+
+}  // namespace search

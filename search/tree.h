@@ -1,0 +1,131 @@
+// The search tree under a memory budget that it never exceeds. It knows moves only as codes: no
+// game is named here, so it is compiled once and tested without one.
+//
+// Threads share it without locks. A descent raises in_flight on every node it passes (the
+// virtual loss); whoever moves a node from fresh to claimed is alone in expanding it.
+//
+// The budget is two equal halves. Nodes are made in the active one; when it is full, the callers
+// of everything here meet without a descent among them, and one calls flip(): the other half,
+// emptied, becomes active. What lies in the passive half is read, never written, and is copied
+// over when a descent enters it; so the parts least recently visited are what the next flip
+// forgets. enter() and expand() say when it is time.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/game.h"
+
+namespace search {
+
+using NodeId = std::uint32_t;  // in units of 8 bytes from the start of the budget
+inline constexpr NodeId no_node = 0;
+
+// Values in sums: exact, and so the same in any order of addition, for 2^38 visits.
+inline constexpr double value_unit = 1 << 24;
+inline std::int64_t fixed_point(float value) {
+    return static_cast<std::int64_t>(static_cast<double>(value) * value_unit);
+}
+
+// A prior in 16 bits: 5 of exponent, 11 of mantissa, from 2^-31 to 1.
+std::uint16_t pack_prior(float prior);
+float unpack_prior(std::uint16_t packed);
+
+struct Edge {
+    std::atomic<NodeId> child = no_node;
+    engine::Move move;
+    std::uint16_t packed_prior = 0;
+
+    float prior() const { return unpack_prior(packed_prior); }
+};
+static_assert(sizeof(Edge) == 8);
+
+enum class Stage : std::uint8_t { fresh, claimed, expanded };
+
+// The end of the game at a node, as the player to move there sees it.
+enum class Ending : std::uint8_t { unknown, none, draw, win, loss };
+
+struct Node {
+    std::atomic<std::int64_t> value_sum = 0;    // as the player who moved here sees it
+    std::atomic<std::int64_t> rollout_sum = 0;  // likewise, where rollouts count apart (AlphaGo)
+    std::atomic<std::uint32_t> visits = 0;
+    std::atomic<std::uint32_t> rollout_visits = 0;
+    NodeId first_edge = no_node;
+    std::uint16_t edge_count = 0;
+    std::atomic<std::uint16_t> in_flight = 0;
+    std::atomic<Stage> stage = Stage::fresh;
+    std::atomic<Ending> ending = Ending::unknown;
+
+    bool expanded() const { return stage.load(std::memory_order_acquire) == Stage::expanded; }
+    // Mean value over the finished visits and `losses` more, each counted as lost; 0 without any.
+    float mean(std::uint32_t losses = 0) const;
+};
+static_assert(sizeof(Node) <= 40);
+
+using Path = std::vector<NodeId>;
+
+class Tree {
+   public:
+    // Reserves the address space; memory is taken as the tree grows. Fails with engine::Error
+    // when the system grants not even the least budget.
+    explicit Tree(std::size_t budget_bytes);
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+    ~Tree();
+
+    NodeId root() const { return root_; }
+    const Node& operator[](NodeId id) const { return node(id); }
+    std::span<const Edge> edges(NodeId id) const { return edge_span(node(id)); }
+    // The child that `edge` of `parent` leads to, no_node when there is none (any more).
+    NodeId child(NodeId parent, const Edge& edge) const;
+    double share_used() const;  // of the budget, 0..1
+
+    // The descent: enter_root(), then of an expanded node's edges(), enter(), to a leaf.
+    std::span<Edge> edges_to_enter(NodeId id) { return edge_span(node(id)); }
+    void enter_root() { node(root_).in_flight.fetch_add(1, std::memory_order_relaxed); }
+    // Makes the node on the first visit. no_node: full, withdraw and flip.
+    NodeId enter(Edge& edge);
+
+    void mark(NodeId id, Ending ending);
+    // True for exactly one caller, who must then expand() or unclaim() the node.
+    bool claim(NodeId id);
+    void unclaim(NodeId id) { node(id).stage.store(Stage::fresh, std::memory_order_release); }
+    // `priors`: one a move, or empty for equal ones. False: full, and the node is fresh again.
+    bool expand(NodeId id, const engine::MoveList& moves, std::span<const float> priors);
+
+    // Ends a descent: records `value`, as the player to move at the path's end sees it.
+    void back_up(const Path& path, float value);
+    // Ends a descent that came to nothing.
+    void withdraw(const Path& path);
+
+    // The rest with no descent under way. Readers, too, must be kept out by the caller.
+    void flip();
+    void clear();
+    // Makes the root's child by `move` the root; false (and the tree unchanged) without one.
+    bool advance(engine::Move move);
+
+   private:
+    static constexpr std::size_t unit = 8;
+
+    Node& node(NodeId id) const { return *reinterpret_cast<Node*>(base_ + id * unit); }
+    std::span<Edge> edge_span(const Node& node) const {
+        return {reinterpret_cast<Edge*>(base_ + node.first_edge * unit), node.edge_count};
+    }
+    bool active(NodeId id) const { return (id >= half_units_) == (active_half_ == 1); }
+    NodeId allocate(std::size_t units, std::size_t reserve);
+    NodeId copy(NodeId passive, std::size_t reserve);
+    void activate(int half);
+
+    std::byte* base_ = nullptr;
+    std::size_t half_units_ = 0;
+    int active_half_ = 0;
+    std::size_t end_ = 0;           // of the active half
+    std::size_t passive_used_ = 0;  // units
+    std::atomic<std::size_t> next_ = 0;
+    NodeId root_ = no_node;
+};
+
+}  // namespace search

@@ -1,0 +1,174 @@
+// Monte Carlo tree search in three verbs: gather leaves, evaluate them, absorb the verdicts.
+// Playing, analysis and self-play are all loops over these three.
+//
+// gather(), absorb() and abandon() may be called by any number of workers at once, the rest by
+// one thread while no descent is under way.
+#pragma once
+
+#include <algorithm>
+#include <bitset>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "search/leaf.h"
+#include "search/params.h"
+#include "search/selection.h"
+
+namespace search {
+
+enum class Gathered : std::uint8_t {
+    leaf,      // to be evaluated, then absorbed
+    absorbed,  // the descent ended at a finished game and is done
+    taken,     // the leaf is in other hands: try again later
+    full       // the tree is: flip it
+};
+
+// Root moves that the search may take.
+class MoveFilter {
+   public:
+    // All but `avoid`, and of `only` alone unless that is empty.
+    void restrict(std::span<const engine::Move> only, std::span<const engine::Move> avoid) {
+        if (only.empty())
+            barred_.reset();
+        else
+            barred_.set();
+        for (const auto move : only) barred_.reset(move.code);
+        for (const auto move : avoid) barred_.set(move.code);
+    }
+    bool operator()(engine::Move move) const { return !barred_[move.code]; }
+
+   private:
+    std::bitset<65536> barred_;
+};
+
+template <engine::Game G>
+class TreeSearch {
+   public:
+    using Rule = std::variant<Ucb1>;
+
+    explicit TreeSearch(const SearchParams& params)
+        : params_(params),
+          rule_(Ucb1{params.exploration, params.unvisited}),
+          tree_(static_cast<std::size_t>(params.memory_mib) << 20) {}
+
+    const Tree& tree() const { return tree_; }
+    const G& root() const { return root_; }
+    const MoveFilter& filter() const { return filter_; }
+    // The root moves to choose from. When they ask for one that the tree left out, it starts anew.
+    void restrict_root(const MoveFilter& filter, std::span<const engine::Move> asked_for) {
+        filter_ = filter;
+        if (!tree_[tree_.root()].expanded()) return;
+        const auto edges = tree_.edges(tree_.root());
+        const auto missing = [&](engine::Move move) {
+            return std::none_of(edges.begin(), edges.end(),
+                                [&](const Edge& edge) { return edge.move == move; });
+        };
+        if (std::any_of(asked_for.begin(), asked_for.end(), missing)) tree_.clear();
+    }
+
+    // Keeps the tree where the memory budget stays what it was.
+    void set_params(const SearchParams& params) {
+        params_ = params;
+        rule_ = Ucb1{params.exploration, params.unvisited};
+    }
+
+    void set_root(const G& root) {
+        root_ = root;
+        tree_.clear();
+    }
+    // Plays `move`, legal at the root, and keeps what the tree has below it.
+    void advance(engine::Move move) {
+        root_.play(move);
+        if (!tree_.advance(move)) tree_.clear();
+    }
+    void flip() { tree_.flip(); }
+
+    // Walks to a leaf. `share`: also to one that another worker is expanding.
+    Gathered gather(Leaf<G>& leaf, bool share) {
+        leaf.game = root_;
+        leaf.path.assign(1, tree_.root());
+        leaf.expands = false;
+        tree_.enter_root();
+        const bool arrived =
+            std::visit([&](const auto& rule) { return descend(leaf, rule); }, rule_);
+        if (!arrived) return tree_.withdraw(leaf.path), Gathered::full;
+        const NodeId node = leaf.path.back();
+        if (const auto ending = ending_of(node, leaf.game); ending != Ending::none)
+            return tree_.back_up(leaf.path, value_of(ending)), Gathered::absorbed;
+        return prepare(leaf, node, share);
+    }
+
+    // False when the tree is full: the value counts, but the leaf stays a leaf.
+    bool absorb(const Leaf<G>& leaf) {
+        const bool fits = !leaf.expands || tree_.expand(leaf.path.back(), leaf.moves, leaf.priors);
+        tree_.back_up(leaf.path, leaf.value);
+        return fits;
+    }
+
+    // Undoes gather() for a leaf that could not be evaluated.
+    void abandon(const Leaf<G>& leaf) {
+        if (leaf.expands) tree_.unclaim(leaf.path.back());
+        tree_.withdraw(leaf.path);
+    }
+
+   private:
+    template <class SelectionRule>
+    bool descend(Leaf<G>& leaf, const SelectionRule& rule) {
+        NodeId node = tree_.root();
+        while (tree_[node].expanded()) {
+            Edge* edge = node == tree_.root()
+                             ? select(tree_, node, rule, filter_)
+                             : select(tree_, node, rule, [](engine::Move) { return true; });
+            if (!edge) return true;
+            const NodeId child = tree_.enter(*edge);
+            if (child == no_node) return false;
+            leaf.game.play(edge->move);
+            leaf.path.push_back(node = child);
+        }
+        return true;
+    }
+
+    Gathered prepare(Leaf<G>& leaf, NodeId node, bool share) {
+        const auto visits = tree_[node].visits.load(std::memory_order_relaxed);
+        const bool due =
+            node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(params_.expand_after);
+        leaf.expands = due && tree_.claim(node);
+        if (due && !leaf.expands && !share) return tree_.withdraw(leaf.path), Gathered::taken;
+        if (leaf.expands) leaf.moves = sensible_moves(leaf.game, node == tree_.root());
+        return Gathered::leaf;
+    }
+
+    // Legal moves without those that fill an own eye, which no rollout would play either. At the
+    // root they stay: someone may ask for them.
+    static engine::MoveList sensible_moves(const G& game, bool all) {
+        auto moves = game.legal_moves();
+        if constexpr (requires(engine::Move move) { game.fills_own_eye(move); })
+            if (!all) moves.filter([&](engine::Move move) { return !game.fills_own_eye(move); });
+        return moves;
+    }
+
+    Ending ending_of(NodeId node, const G& game) {
+        auto ending = tree_[node].ending.load(std::memory_order_relaxed);
+        if (ending != Ending::unknown) return ending;
+        const auto outcome = game.outcome();
+        ending = outcome == engine::Outcome::ongoing          ? Ending::none
+                 : outcome == engine::Outcome::draw           ? Ending::draw
+                 : outcome == engine::win_for(game.to_play()) ? Ending::win
+                                                              : Ending::loss;
+        tree_.mark(node, ending);
+        return ending;
+    }
+
+    static float value_of(Ending ending) {
+        return ending == Ending::win ? 1.0f : ending == Ending::loss ? -1.0f : 0.0f;
+    }
+
+    SearchParams params_;
+    Rule rule_;
+    G root_;
+    Tree tree_;
+    MoveFilter filter_;
+};
+
+}  // namespace search
