@@ -1,0 +1,150 @@
+// One game being played, with a search behind it: what every front end talks to. Through Session,
+// moves and positions cross as text, so that UCI and USI never learn which game they carry; GTP,
+// which is about Go alone, holds a GameSession<go::Go> and looks at the game itself.
+//
+// One thread owns a session. Callbacks of a think come from a thread of the search and may use
+// only the const functions.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/option.h"
+#include "engine/game.h"
+#include "search/searcher.h"
+
+namespace protocols {
+
+class Session {
+   public:
+    using Report = std::function<void(const search::Analysis&)>;
+
+    virtual ~Session() = default;
+
+    virtual std::string_view game() const = 0;
+    virtual engine::Player to_play() const = 0;
+    virtual engine::Outcome outcome() const = 0;
+
+    // An empty `start` is the game's own first position. Fails with engine::Error, the position
+    // being what it was, when the start or a move is illegal; the message names the move.
+    virtual void set_position(std::string_view start, std::span<const std::string> moves) = 0;
+    // Forgets what the search knows.
+    virtual void new_game() = 0;
+    // Fails when the move is illegal.
+    virtual void play(std::string_view move) = 0;
+    // False at the start.
+    virtual bool undo() = 0;
+
+    // Empty where the text is no legal move.
+    virtual std::optional<engine::Move> move_from_text(std::string_view text) const = 0;
+    virtual std::string move_to_text(engine::Move move) const = 0;
+    // Moves from the present position on, separated by blanks.
+    virtual std::string line_to_text(std::span<const engine::Move> line) const = 0;
+    virtual std::string position_text() const = 0;
+    // Whether the mover may end the game in its favour by a declaration (shogi's impasse).
+    virtual bool can_declare_win() const = 0;
+
+    virtual search::SearchParams params() const = 0;
+    virtual void set_params(const search::SearchParams& params) = 0;
+
+    // As search::Searcher's.
+    virtual void start(const search::Limits& limits, Report report, Report done) = 0;
+    virtual void stop() = 0;
+    virtual void interrupt() = 0;
+    virtual void ponder_hit() = 0;
+    virtual bool thinking() const = 0;
+};
+
+template <engine::Game G>
+class GameSession final : public Session {
+   public:
+    explicit GameSession(const search::SearchParams& params) : searcher_(params), games_(1) {}
+
+    // The game now, and all states it went through, the start first.
+    const G& now() const { return games_.back(); }
+    std::span<const G> states() const { return games_; }
+    search::Searcher<G>& searcher() { return searcher_; }
+    const search::Searcher<G>& searcher() const { return searcher_; }
+    // A new start, with whatever the game can be set to (size, komi, set-up stones).
+    void restart(const G& start) { games_.assign(1, start); }
+    void play(engine::Move move) {
+        G next = games_.back();
+        next.play(move);
+        games_.push_back(std::move(next));
+    }
+
+    std::string_view game() const override { return G::name; }
+    engine::Player to_play() const override { return now().to_play(); }
+    engine::Outcome outcome() const override { return now().outcome(); }
+
+    void set_position(std::string_view start, std::span<const std::string> moves) override {
+        std::vector<G> games{start.empty() ? G() : G::from_text(start)};
+        for (const std::string& text : moves) {
+            const auto move = games.back().move_from_text(text);
+            if (!move) engine::fail("illegal move {} (number {})", text, games.size());
+            games.push_back(games.back());
+            games.back().play(*move);
+        }
+        games_ = std::move(games);
+    }
+
+    void new_game() override { searcher_.clear(); }
+
+    void play(std::string_view text) override {
+        const auto move = now().move_from_text(text);
+        if (!move) engine::fail("illegal move {}", text);
+        play(*move);
+    }
+
+    bool undo() override {
+        if (games_.size() == 1) return false;
+        games_.pop_back();
+        return true;
+    }
+
+    std::optional<engine::Move> move_from_text(std::string_view text) const override {
+        return now().move_from_text(text);
+    }
+    std::string move_to_text(engine::Move move) const override { return now().move_to_text(move); }
+
+    std::string line_to_text(std::span<const engine::Move> line) const override {
+        std::string text;
+        G game = now();
+        for (const engine::Move move : line) {
+            text.append(text.empty() ? "" : " ").append(game.move_to_text(move));
+            game.play(move);
+        }
+        return text;
+    }
+
+    std::string position_text() const override { return now().to_text(); }
+
+    bool can_declare_win() const override {
+        if constexpr (requires(const G& game) { game.can_declare_win(); })
+            return now().can_declare_win();
+        return false;
+    }
+
+    search::SearchParams params() const override { return searcher_.params(); }
+    void set_params(const search::SearchParams& params) override { searcher_.set_params(params); }
+
+    void start(const search::Limits& limits, Report report, Report done) override {
+        searcher_.set_position(now());
+        searcher_.start(limits, std::move(report), std::move(done));
+    }
+    void stop() override { searcher_.stop(); }
+    void interrupt() override { searcher_.interrupt(); }
+    void ponder_hit() override { searcher_.ponder_hit(); }
+    bool thinking() const override { return searcher_.thinking(); }
+
+   private:
+    search::Searcher<G> searcher_;
+    std::vector<G> games_;  // the present state last
+};
+
+}  // namespace protocols
