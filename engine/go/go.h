@@ -6,10 +6,11 @@
 // it stands), yet may be played on, as protocols allow.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/game.h"
@@ -23,60 +24,82 @@ using engine::MoveList;
 using engine::Outcome;
 using engine::Player;
 
-inline constexpr int min_size = 2, max_size = 25;
-
 struct Point {
     int x = 0, y = 0;
     bool operator==(const Point&) const = default;
 };
 
+class Rollouts;
+
 class Go {
    public:
+    using Rollouts = go::Rollouts;  // engine/go/rollouts.h
+
     static constexpr std::string_view name = "go";
     static constexpr Move pass{0};
+    static constexpr int remembered = 8;  // positions that networks may look back on, this included
 
     explicit Go(int size = 19, Komi komi = {}, const Rules& rules = {});
 
-    bool operator==(const Go& other) const;
+    bool operator==(const Go& other) const = default;
 
-    int size() const;
-    Komi komi() const;
-    const Rules& rules() const;
+    int size() const { return board_.size(); }
+    Komi komi() const { return komi_; }
+    const Rules& rules() const { return rules_; }
     // Both keep the stones and the history.
-    void set_komi(Komi komi);
-    void set_rules(const Rules& rules);
+    void set_komi(Komi komi) { komi_ = komi; }
+    void set_rules(const Rules& rules) { rules_ = rules; }
 
-    Player to_play() const;
+    Player to_play() const { return to_play_; }
+    // As if the other player had passed without its being counted: lifts a simple ko.
     void set_to_play(Player player);
+    const Board& board() const { return board_; }
     std::optional<Player> at(Point point) const;
     Move move_at(Point point) const;                 // whether legal or not
     std::optional<Point> point_of(Move move) const;  // empty for a pass
+    std::optional<Point> ko_point() const;           // where a simple ko forbids the mover to take
     // Moves since the start or the last set-up, passes counted.
-    int move_count() const;
-    int captured_by(Player player) const;  // prisoners that `player` took
-    int consecutive_passes() const;
+    int move_count() const { return move_count_; }
+    // Prisoners that `player` took, those of an opponent's suicide among them.
+    int captured_by(Player player) const { return captured_[side(player)]; }
+    int consecutive_passes() const { return passes_; }
+
+    // The stones as they stood `ago` moves earlier, 0 <= ago < remembered, no further back than
+    // the start or the last set-up: then empty.
+    const Stones& stones_before(int ago) const;
+    // The move made `ago` moves earlier (0: the last one); empty where stones_before(ago + 1) is.
+    std::optional<Move> move_before(int ago) const;
 
     bool legal(Move move) const;
     // Empty when legal, else why not: "occupied", "ko", "superko", "suicide".
     std::string_view why_illegal(Move move) const;
     MoveList legal_moves() const;
     void play(Move move);
+    // Does the move fill a one-point eye of the mover's own: all neighbours own, and at most one
+    // diagonal (none at the edge) the opponent's?
+    bool fills_own_eye(Move move) const;
 
     // Puts or takes a stone outside the play (AB, AW, AE, handicap); captures nothing and starts
     // the history anew.
     void set_up(Point point, std::optional<Player> stone);
+    // Takes a stone that the players agree is dead, as the opponent's prisoner; none, no effect.
+    void take_dead(Point point);
+    // False after a set-up that left a chain without liberty.
+    bool every_chain_has_liberty() const;
     // Stones by which White's bonus is counted under the rules in force.
-    int handicap() const;
-    void set_handicap(int stones);
+    int handicap() const { return handicap_; }
+    void set_handicap(int stones) { handicap_ = stones; }
+    int white_bonus() const;  // the points those rules give
 
     Outcome outcome() const;
     // Third occurrence of a position under simple ko: the game has no result (a draw in search).
-    bool no_result() const;
+    bool no_result() const { return no_result_; }
 
     std::uint64_t key() const;
 
-    // One line: rows from the top as in FEN (digits for empty points, X black, O white), the mover,
-    // size, komi, rules.
+    // One line: rows from the top as in FEN (numbers for empty points, X black, O white), the
+    // mover (b or w), the point a simple ko forbids or "-", prisoners of Black:White, komi, rules,
+    // handicap. What is left out at the end is as in a new game.
     static Go from_text(std::string_view text);
     std::string to_text() const;
     // Vertices: "A1" … "Z25" without I, any case, or "pass".
@@ -84,10 +107,38 @@ class Go {
     std::string move_to_text(Move move) const;
 
    private:
-    // … board, rules, keys of the positions so far
+    static std::size_t side(Player player) { return player == Player::first ? 0 : 1; }
+    static constexpr std::uint64_t mover_bit = 1;
+
+    int index(Point point) const { return board_.index(point.x, point.y); }
+    bool repeats(int at) const;
+    std::uint64_t position_key(std::uint64_t stones, Player mover) const;
+    void remember(Move move);
+    void forget();
+    void play_stone(int at);
+
+    Board board_;
+    Player to_play_ = Player::first;
+    std::uint8_t passes_ = 0;
+    bool no_result_ = false;
+    std::uint16_t ko_ = 0;
+    std::int32_t move_count_ = 0;
+    std::int32_t handicap_ = 0;
+    std::array<std::int32_t, 2> captured_{};
+    Komi komi_;
+    Rules rules_;
+
+    // History. Keys of all positions so far, the present one last: the stones', with the mover in
+    // the lowest bit. A stone can recreate a position only where one like it once stood.
+    std::vector<std::uint64_t> positions_;
+    Stones taken_off_;
+    std::array<Stones, remembered> recent_;      // by move_count_ % remembered
+    std::array<Move, remembered> last_moves_{};  // that led to them
 };
 
+// "A1" … "Z25", columns without I.
 std::string vertex(Point point);
+// Any case; empty when it is no point of the board (a pass included).
 std::optional<Point> point_from_vertex(std::string_view text, int size);
 
 // The board with coordinates, rules, komi, prisoners and the mover, as showboard prints it.
@@ -97,5 +148,8 @@ std::string diagram(const Go& game);
 // number has none.
 std::vector<Point> fixed_handicap(int size, int stones);
 int most_fixed_handicap(int size);
+// Where a player may put `stones` of free handicap: the fixed points if there are so many, else
+// these and then others, spread out. Fails unless 2 <= stones < size * size.
+std::vector<Point> free_handicap(int size, int stones);
 
 }  // namespace go
