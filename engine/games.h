@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/chess/chess.h"
 #include "engine/game.h"
-#include "engine/go/go.h"
 
 namespace engine {
 
@@ -27,6 +27,6 @@ struct GameList {
     }
 };
 
-using Games = GameList<go::Go>;
+using Games = GameList<chess::Chess>;
 
 }  // namespace engine

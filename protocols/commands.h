@@ -1,0 +1,19 @@
+// The subcommands of the executable. Each gets the arguments behind its own name, parses them, and
+// returns the process's exit status; engine::Error for bad input is main()'s to report.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace protocols {
+
+using Arguments = std::span<char*>;
+
+struct Subcommand {
+    std::string_view name, help;
+    int (*run)(Arguments);
+};
+
+int run_perft(Arguments arguments);
+
+}  // namespace protocols
