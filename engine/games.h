@@ -9,6 +9,8 @@
 #include "engine/base/error.h"
 #include "engine/chess/chess.h"
 #include "engine/game.h"
+#include "engine/go/go.h"
+#include "engine/go/rollouts.h"
 
 namespace engine {
 
@@ -27,6 +29,6 @@ struct GameList {
     }
 };
 
-using Games = GameList<chess::Chess>;
+using Games = GameList<go::Go, chess::Chess>;
 
 }  // namespace engine

@@ -68,6 +68,7 @@ class Board {
 
     bool is_lone_stone(int at) const { return cell(at).next() == at; }
     int head(int at) const { return cell(at).head(); }
+    int next(int at) const { return cell(at).next(); }  // stone of the chain
     // Calls action(index) on every stone of the chain at `at`; the action must not change the
     // board.
     template <class Action>

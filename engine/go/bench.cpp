@@ -1,0 +1,70 @@
+#include "engine/go/bench.h"
+
+#include <chrono>
+
+#include "engine/base/random.h"
+#include "engine/go/rollouts.h"
+
+namespace go {
+
+namespace {
+
+// Calls run() over and over, and returns how often a second it could.
+template <class Run>
+double calls_per_second(double seconds, Run run) {
+    using Clock = std::chrono::steady_clock;
+    constexpr int batch = 64;
+    const auto start = Clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    double calls = 0;
+    for (; elapsed() < seconds; calls += batch)
+        for (int i = 0; i < batch; ++i) run();
+    return calls / elapsed();
+}
+
+engine::Figure rollouts(int size, double seconds) {
+    const Go game(size);
+    engine::Random random(1);
+    Rollouts rollouts;
+    const double rate = calls_per_second(seconds, [&] { rollouts.play(game, random); });
+    return {"go" + std::to_string(size) + "_rollouts", rate, "rollouts/s"};
+}
+
+// Copies to and fro between two values, as the search does from node to node.
+template <class T>
+double copy_time(double seconds, const T& value) {
+    std::vector<T> values(2, value);
+    // Volatile, or the compiler would see that the copies change nothing.
+    volatile std::size_t from = 0;
+    const double rate = calls_per_second(seconds, [&] {
+        values[1 - from] = values[from];
+        from = 1 - from;
+    });
+    return 1e9 / rate;
+}
+
+Go random_game(int size, int moves) {
+    Go game(size);
+    engine::Random random(1);
+    for (int i = 0; i < moves; ++i) {
+        auto legal = game.legal_moves();
+        legal.filter([&](Move move) { return !game.fills_own_eye(move) && move != Go::pass; });
+        game.play(legal.empty() ? Go::pass : legal[random.below(legal.size())]);
+    }
+    return game;
+}
+
+}  // namespace
+
+std::vector<engine::Figure> bench_rules(double seconds) {
+    const Go game = random_game(19, 200);
+    return {rollouts(9, seconds),
+            rollouts(13, seconds),
+            rollouts(19, seconds),
+            {"go19_board_copy", copy_time(seconds, game.board()), "ns"},
+            {"go19_game_copy", copy_time(seconds, game), "ns"}};
+}
+
+}  // namespace go
