@@ -40,6 +40,7 @@ class Session {
     // False at the start.
     virtual bool undo() = 0;
 
+    virtual engine::MoveList legal_moves() const = 0;
     // Empty where the text is no legal move.
     virtual std::optional<engine::Move> move_from_text(std::string_view text) const = 0;
     virtual std::string move_to_text(engine::Move move) const = 0;
@@ -55,6 +56,7 @@ class Session {
     // As search::Searcher's.
     virtual void start(const search::Limits& limits, Report report, Report done) = 0;
     virtual void stop() = 0;
+    virtual void wait() = 0;
     virtual void interrupt() = 0;
     virtual void ponder_hit() = 0;
     virtual bool thinking() const = 0;
@@ -107,6 +109,7 @@ class GameSession final : public Session {
         return true;
     }
 
+    engine::MoveList legal_moves() const override { return now().legal_moves(); }
     std::optional<engine::Move> move_from_text(std::string_view text) const override {
         return now().move_from_text(text);
     }
@@ -138,6 +141,7 @@ class GameSession final : public Session {
         searcher_.start(limits, std::move(report), std::move(done));
     }
     void stop() override { searcher_.stop(); }
+    void wait() override { searcher_.wait(); }
     void interrupt() override { searcher_.interrupt(); }
     void ponder_hit() override { searcher_.ponder_hit(); }
     bool thinking() const override { return searcher_.thinking(); }

@@ -59,6 +59,8 @@ class Searcher {
         interrupt();
         crew_->wait();
     }
+    // Returns when the think is over by itself and `done` has returned.
+    void wait() { crew_->wait(); }
     // Asks for the end and returns at once; from any thread.
     void interrupt();
     void ponder_hit();

@@ -1,0 +1,97 @@
+// UCI, which chess GUIs speak, and its dialect USI for shogi: a session served over lines of text.
+// Answers `uci` before anything is loaded; unknown commands are ignored with one `info string`, as
+// UCI demands; nothing but protocol is written, and nothing between a bestmove and the next go.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <istream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocols/lines.h"
+#include "protocols/session.h"
+#include "protocols/uci_go.h"
+
+namespace protocols {
+
+// The words in which the two protocols differ.
+struct Dialect {
+    std::string_view hello, hello_done, new_game, position, hash_option, ponder_option;
+    std::string_view no_move;  // bestmove of a side that has none
+    bool white_first = true;
+    bool knows_resignation = false;
+};
+
+inline constexpr Dialect uci_dialect{"uci",    "uciok",  "ucinewgame", "fen", "Hash",
+                                     "Ponder", "(none)", true,         false};
+inline constexpr Dialect usi_dialect{"usi",        "usiok",  "usinewgame", "sfen", "USI_Hash",
+                                     "USI_Ponder", "resign", false,        true};
+
+// One option as GUIs see it.
+struct UciOption {
+    std::string name;
+    std::string declaration;  // from `type` on
+    std::function<void(std::string_view)> set;
+};
+
+class Uci {
+   public:
+    // `extra`: options that only this game has. `name`: what `id name` answers.
+    Uci(const Dialect& dialect, std::unique_ptr<Session> session, std::string name, Output& out,
+        std::vector<UciOption> extra = {});
+
+    // Until `quit` or the end of input; a think with limits that is under way then is finished.
+    void serve(std::istream& in);
+    // One line; false for `quit`.
+    bool handle(std::string_view line);
+
+   private:
+    struct Command {
+        std::string_view name;
+        void (Uci::*run)(std::string_view arguments);
+    };
+
+    std::vector<Command> commands() const;
+    std::vector<UciOption> common_options();
+
+    void hello(std::string_view);
+    void is_ready(std::string_view);
+    void set_option(std::string_view arguments);
+    void new_game(std::string_view);
+    void position(std::string_view arguments);
+    void go(std::string_view arguments);
+    void stop(std::string_view);
+    void ponder_hit(std::string_view arguments);
+    void game_over(std::string_view);
+    void ignore(std::string_view) {}
+
+    void think(const GoCommand& go);
+    void report(const search::Analysis& picture);
+    void finish(const search::Analysis& picture);
+    void end_think();
+    std::string info(const search::Analysis& picture, std::size_t rank) const;
+    std::string best_move(const search::Analysis& picture) const;
+    void change(const std::function<void(search::SearchParams&)>& edit);
+
+    const Dialect dialect_;
+    std::unique_ptr<Session> session_;
+    std::string name_;
+    Output& out_;
+    std::vector<UciOption> options_;
+
+    int multi_pv_ = 1;
+    bool offers_ponder_ = true;
+    int resign_per_mille_ = 0;
+    std::optional<int> depth_limit_;      // of the present think
+    std::atomic<bool> silenced_ = false;  // the present think's bestmove is not wanted
+    GoCommand last_go_;
+};
+
+// 100 centipawns are a mean value of about 0.4; `value` in [-1, 1].
+int centipawns(float value);
+
+}  // namespace protocols

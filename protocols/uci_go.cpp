@@ -1,0 +1,99 @@
+#include "protocols/uci_go.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <sstream>
+
+namespace protocols {
+
+namespace {
+
+using search::Milliseconds;
+
+// A week: longer times only risk overflow.
+constexpr std::int64_t most_milliseconds = std::int64_t{7} * 24 * 3600 * 1000;
+
+std::optional<std::int64_t> number(std::string_view text) {
+    std::int64_t value = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status == std::errc::result_out_of_range && !text.empty())
+        return text[0] == '-' ? 0 : std::numeric_limits<std::int64_t>::max();
+    if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+Milliseconds milliseconds(std::int64_t value) {
+    return Milliseconds(std::clamp<std::int64_t>(value, 0, most_milliseconds));
+}
+
+bool is_keyword(std::string_view word) {
+    static constexpr std::string_view keywords[] = {
+        "searchmoves", "ponder", "wtime", "btime",    "winc",     "binc",   "movestogo",
+        "depth",       "nodes",  "mate",  "movetime", "infinite", "byoyomi"};
+    return std::find(std::begin(keywords), std::end(keywords), word) != std::end(keywords);
+}
+
+void set_number(GoCommand& go, std::string_view word, std::int64_t value, bool white_first) {
+    const std::size_t player = (word[0] == 'w') == white_first ? 0 : 1;
+    const auto count = static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0));
+    const auto small = static_cast<int>(std::clamp<std::int64_t>(value, 0, 1'000'000));
+    if (word == "wtime" || word == "btime") go.time[player] = milliseconds(value);
+    if (word == "winc" || word == "binc") go.increment[player] = milliseconds(value);
+    if (word == "byoyomi") go.byoyomi = milliseconds(value);
+    if (word == "movetime") go.move_time = milliseconds(value);
+    if (word == "movestogo") go.moves_to_go = small;
+    if (word == "depth") go.depth = small;
+    if (word == "nodes") go.nodes = count;
+    if (word == "mate") go.mate = count;
+}
+
+}  // namespace
+
+GoCommand parse_go(std::string_view arguments, bool white_first) {
+    GoCommand go;
+    std::istringstream in{std::string(arguments)};
+    bool listing_moves = false;
+    for (std::string word; in >> word;) {
+        const bool keyword = is_keyword(word);
+        if (listing_moves && !keyword) go.search_moves.push_back(word);
+        if (!keyword) continue;
+        listing_moves = word == "searchmoves";
+        if (word == "infinite") go.infinite = true;
+        if (word == "ponder") go.ponder = true;
+        if (listing_moves || word == "infinite" || word == "ponder") continue;
+        std::string text;
+        if (!(in >> text)) break;
+        if (word == "mate" && text == "infinite")
+            go.mate = std::numeric_limits<std::uint64_t>::max();
+        else if (const auto value = number(text))
+            set_number(go, word, *value, white_first);
+    }
+    return go;
+}
+
+search::Limits limits_of(const GoCommand& go, engine::Player mover) {
+    search::Limits limits;
+    limits.ponder = go.ponder;
+    if (go.infinite) return limits;
+    limits.simulations = go.nodes;
+    limits.time = go.move_time;
+    if (!go.has_clock()) return limits;
+    // A GUI that sends one side's time only (`go wtime 100`) means both.
+    const auto me = static_cast<std::size_t>(mover);
+    search::TimeLeft left;
+    left.control.unlimited = false;
+    left.control.main = go.time[me].value_or(go.time[1 - me].value_or(Milliseconds(0)));
+    left.control.increment = go.increment[me];
+    left.control.period = go.byoyomi;
+    left.control.periods = go.byoyomi.count() > 0 ? 1 : 0;
+    left.control.moves_per_session = go.moves_to_go;
+    left.main = left.control.main;
+    left.period = go.byoyomi;
+    left.periods = left.control.periods;
+    left.moves = left.main.count() > 0 ? go.moves_to_go : 1;
+    limits.clock = left;
+    return limits;
+}
+
+}  // namespace protocols

@@ -1,0 +1,178 @@
+// The UCI front end over the smallest game there is.
+#include "protocols/uci.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <thread>
+
+#include "tests/search/tictactoe.h"
+
+namespace protocols {
+
+namespace {
+
+search::SearchParams small() {
+    search::SearchParams params;
+    params.memory_mib = 16;
+    return params;
+}
+
+struct Guest {
+    explicit Guest(const Dialect& dialect = uci_dialect)
+        : uci(dialect, std::make_unique<GameSession<tictactoe::TicTacToe>>(small()), "sanban",
+              output) {}
+
+    // What the lines are answered with.
+    std::string say(const std::string& lines) {
+        text.str("");
+        std::istringstream in(lines);
+        uci.serve(in);
+        return text.str();
+    }
+
+    std::ostringstream text;
+    Output output{text};
+    Uci uci;
+};
+
+bool has(const std::string& text, std::string_view part) { return text.find(part) != text.npos; }
+
+// The last line, which a bestmove must be.
+std::string last_line(const std::string& text) {
+    const auto end = text.find_last_not_of('\n');
+    const auto start = text.rfind('\n', end);
+    return text.substr(start == text.npos ? 0 : start + 1, end - start);
+}
+
+}  // namespace
+
+TEST(Uci, SaysWhoItIsAndWhatCanBeSet) {
+    Guest guest;
+    const auto answer = guest.say("uci\nisready\n");
+    EXPECT_TRUE(answer.starts_with("id name sanban\nid author "));
+    EXPECT_TRUE(has(answer, "option name Threads type spin default 1 min 1 max 1024\n"));
+    EXPECT_TRUE(has(answer, "option name Hash type spin default 16 min "));
+    EXPECT_TRUE(answer.ends_with("uciok\nreadyok\n"));
+}
+
+TEST(Uci, UsiOptionsHaveNoBlanksInTheirNames) {
+    Guest guest(usi_dialect);
+    std::istringstream in(guest.say("usi\n"));
+    int options = 0;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string option, name, value, type;
+        words >> option >> name >> value >> type;
+        if (option != "option") continue;
+        ++options;
+        EXPECT_EQ(name, "name");
+        EXPECT_EQ(type, "type") << line;
+    }
+    EXPECT_GT(options, 4);
+}
+
+TEST(Uci, FindsAWinInOneAndEndsWithBestmove) {
+    Guest guest;
+    const auto answer = guest.say("position startpos moves 1 4 2 5\ngo nodes 500\n");
+    EXPECT_TRUE(last_line(answer).starts_with("bestmove 3")) << answer;
+    EXPECT_TRUE(has(answer, "info depth "));
+    EXPECT_TRUE(has(answer, " score cp "));
+    EXPECT_TRUE(has(answer, " multipv 1 pv 3\n"));
+}
+
+TEST(Uci, SearchMovesAreObeyed) {
+    Guest guest;
+    const auto answer = guest.say("position startpos moves 1 4 2 5\ngo nodes 100 searchmoves 9\n");
+    EXPECT_TRUE(last_line(answer).starts_with("bestmove 9")) << answer;
+}
+
+TEST(Uci, MultiPvListsSeveralMoves) {
+    Guest guest;
+    const auto answer =
+        guest.say("setoption name MultiPV value 3\nposition startpos\ngo nodes 200\n");
+    EXPECT_TRUE(has(answer, " multipv 3 pv "));
+    EXPECT_FALSE(has(answer, " multipv 4 pv "));
+}
+
+TEST(Uci, ABadPositionLeavesTheOldOne) {
+    Guest guest;
+    const auto answer =
+        guest.say("position startpos moves 1 4 2 5\nposition startpos moves 1 1\ngo nodes 500\n");
+    EXPECT_TRUE(answer.starts_with("info string error: illegal move 1 (number 2)\n")) << answer;
+    EXPECT_TRUE(last_line(answer).starts_with("bestmove 3"));
+}
+
+TEST(Uci, UnknownCommandsAreIgnoredWithOneLine) {
+    Guest guest;
+    EXPECT_EQ(guest.say("xyzzy 1 2\n"), "info string unknown command xyzzy\n");
+    EXPECT_EQ(guest.say("setoption name Nonsense value 3\n"),
+              "info string error: there is no option 'Nonsense'\n");
+    EXPECT_EQ(guest.say("setoption name Threads value 0\n"),
+              "info string error: threads must lie in 1..1024, not 0\n");
+    EXPECT_EQ(guest.say("position fen\n"),
+              "info string error: position fen: the position is missing\n");
+    EXPECT_EQ(guest.say("\n   \nisready\n"), "readyok\n");
+}
+
+TEST(Uci, NothingBestWhenTheGameIsOver) {
+    Guest guest;
+    EXPECT_EQ(guest.say("position startpos moves 1 4 2 5 3\ngo nodes 10\n"), "bestmove (none)\n");
+    Guest shogi(usi_dialect);
+    EXPECT_EQ(shogi.say("position startpos moves 1 4 2 5 3\ngo nodes 10\n"), "bestmove resign\n");
+}
+
+TEST(Uci, AnEndlessThinkWaitsForStop) {
+    Guest guest;
+    guest.text.str("");
+    EXPECT_TRUE(guest.uci.handle("position startpos"));
+    EXPECT_TRUE(guest.uci.handle("go infinite"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+    EXPECT_TRUE(guest.uci.handle("stop"));
+    EXPECT_TRUE(last_line(guest.text.str()).starts_with("bestmove "));
+    guest.text.str("");
+    EXPECT_TRUE(guest.uci.handle("stop"));
+    EXPECT_EQ(guest.text.str(), "");
+}
+
+TEST(Uci, AStopRightAfterGoHasABestmove) {
+    Guest guest;
+    for (int i = 0; i < 50; ++i) {
+        guest.text.str("");
+        guest.uci.handle("go infinite");
+        guest.uci.handle("stop");
+        ASSERT_TRUE(last_line(guest.text.str()).starts_with("bestmove ")) << guest.text.str();
+    }
+}
+
+TEST(Uci, PonderingEndsByPonderhit) {
+    Guest guest;
+    guest.uci.handle("position startpos moves 1 4 2 5");
+    guest.uci.handle("go ponder nodes 50");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+    guest.uci.handle("ponderhit");
+    std::istringstream end;
+    guest.uci.serve(end);
+    EXPECT_TRUE(last_line(guest.text.str()).starts_with("bestmove 3"));
+}
+
+TEST(Uci, LatePonderTimesStartTheClock) {
+    Guest guest(usi_dialect);
+    guest.uci.handle("position startpos moves 1 4 2 5");
+    guest.uci.handle("go ponder");
+    guest.uci.handle("ponderhit btime 0 wtime 0 byoyomi 100");
+    std::istringstream end;
+    guest.uci.serve(end);
+    EXPECT_TRUE(last_line(guest.text.str()).starts_with("bestmove 3"));
+}
+
+TEST(Uci, CentipawnsGrowWithTheValue) {
+    EXPECT_EQ(centipawns(0), 0);
+    EXPECT_EQ(centipawns(-0.5f), -centipawns(0.5f));
+    EXPECT_NEAR(centipawns(0.5f), 89, 2);
+    EXPECT_LT(centipawns(0.9f), centipawns(1));
+}
+
+}  // namespace protocols
