@@ -11,6 +11,7 @@
 #include "engine/game.h"
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"
+#include "engine/shogi/shogi.h"
 
 namespace engine {
 
@@ -29,6 +30,6 @@ struct GameList {
     }
 };
 
-using Games = GameList<go::Go, chess::Chess>;
+using Games = GameList<go::Go, chess::Chess, shogi::Shogi>;
 
 }  // namespace engine

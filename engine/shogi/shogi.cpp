@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/shogi/movegen.h"
+#include "engine/shogi/perft.h"
 #include "engine/shogi/sfen.h"
 #include "engine/shogi/usi.h"
 
@@ -87,6 +88,8 @@ bool Shogi::can_declare_win() const {
     return points_on(position_, entered) + points_in_hand(position_, player) >=
            points_to_declare(position_, player, declaration_rule_);
 }
+
+std::uint64_t Shogi::perft(int depth) const { return shogi::perft(position_, depth); }
 
 MoveList Shogi::legal_moves() const { return shogi::legal_moves(position_); }
 

@@ -71,6 +71,8 @@ class Shogi {
     void play(Move move);
 
     std::uint64_t key() const { return position_.key(); }
+    // Lines of legal moves that many moves long; only mate ends one.
+    std::uint64_t perft(int depth) const;
 
     // How often the position `back` moves ago had occurred before: 0 the first time.
     int repetitions(int back = 0) const { return past_[past_.size() - 1 - at(back)].repetitions; }
