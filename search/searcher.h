@@ -55,16 +55,13 @@ class Searcher {
     // call no others, and not stop().
     void start(const Limits& limits, Report report, Report done);
     // Ends the think within 5 ms and returns when `done` has returned.
-    void stop() {
-        interrupt();
-        crew_->wait();
-    }
+    void stop();
     // Returns when the think is over by itself and `done` has returned.
-    void wait() { crew_->wait(); }
+    void wait() const;
     // Asks for the end and returns at once; from any thread.
     void interrupt();
     void ponder_hit();
-    bool thinking() const { return !crew_->idle(); }
+    bool thinking() const;
 
     // A consistent picture, at any time, from any thread; the last think's when idle.
     Analysis analysis(int most_moves = 0x7fffffff, int variation_length = 32) const;
@@ -108,13 +105,14 @@ class Searcher {
 
     // The conductor of a think against its owner and workers.
     mutable std::mutex mutex_;
-    std::condition_variable changed_;
+    mutable std::condition_variable changed_;
     Limits limits_;
     std::optional<Schedule> schedule_;  // once the limits have taken effect
     TimePoint effective_{};
     std::optional<float> previous_value_;
     std::size_t working_ = 0;
     bool interrupted_ = false;
+    bool ended_ = true;  // `done` has returned
 
     std::unique_ptr<Team> team_ = std::make_unique<Team>();
     std::unique_ptr<Crew> crew_;  // the workers, then the conductor; last, to end first
@@ -243,7 +241,7 @@ void Searcher<G>::begin(const Limits& limits) {
     previous_value_.reset();
     if (now.first_visits > 0) previous_value_ = now.value;
     working_ = workers_.size();
-    interrupted_ = false;
+    interrupted_ = ended_ = false;
     if (!limits.ponder) take_effect(limits);
 }
 
@@ -253,6 +251,24 @@ void Searcher<G>::take_effect(const Limits& limits) {
     effective_ = Clock::now();
     schedule_.emplace(limits, params_, moves_to_come(position()), lag());
     if (limits.simulations) team_->limit = *limits.simulations;
+}
+
+template <engine::Game G>
+void Searcher<G>::stop() {
+    interrupt();
+    wait();
+}
+
+template <engine::Game G>
+void Searcher<G>::wait() const {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ended_; });
+}
+
+template <engine::Game G>
+bool Searcher<G>::thinking() const {
+    const std::lock_guard lock(mutex_);
+    return !ended_;
 }
 
 template <engine::Game G>
@@ -318,16 +334,21 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     const auto asked = Clock::now();
     const auto hard = schedule_ ? schedule_->hard() : std::nullopt;
     team_->stop = true;
-    changed_.wait(lock, [&] { return working_ == 0; });
+    // A worker that a busy machine does not let run must not hold up the answer.
+    constexpr Milliseconds patience{2};
+    changed_.wait_for(lock, patience, [&] { return working_ == 0; });
     lock.unlock();
     {
         const std::lock_guard picture(picture_mutex_);
         elapsed_ = since(started_);
     }
     if (done) done(analysis());
+    lock.lock();
     // Against the deadline where one was missed, else against the decision to end.
     const auto due = hard ? std::min(asked, effective_ + *hard) : asked;
     late_.record(since(due));
+    ended_ = true;
+    changed_.notify_all();
 }
 
 // With mutex_ held: when to look again, if ever unasked.
@@ -394,9 +415,10 @@ void Searcher<G>::add_owners(Analysis& picture) const {
 
 template <engine::Game G>
 Analysis Searcher<G>::think(const Limits& limits) {
-    start(limits, {}, {});
+    Analysis last;
+    start(limits, {}, [&](const Analysis& picture) { last = picture; });
     crew_->wait();
-    return analysis();
+    return last;
 }
 
 template <engine::Game G>
