@@ -3,6 +3,7 @@
 // another.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -54,7 +55,8 @@ class Searcher {
     // stop(), interrupt(), ponder_hit(), thinking() and analysis() may be called; a callback may
     // call no others, and not stop().
     void start(const Limits& limits, Report report, Report done);
-    // Ends the think within 5 ms and returns when `done` has returned.
+    // Ends the think within 5 ms (once every root move is known, however few its visits) and
+    // returns when `done` has returned.
     void stop();
     // Returns when the think is over by itself and `done` has returned.
     void wait() const;
@@ -250,7 +252,7 @@ template <engine::Game G>
 void Searcher<G>::take_effect(const Limits& limits) {
     effective_ = Clock::now();
     schedule_.emplace(limits, params_, moves_to_come(position()), lag());
-    if (limits.simulations) team_->limit = *limits.simulations;
+    if (limits.simulations) team_->limit = std::max<std::uint64_t>(*limits.simulations, 1);
 }
 
 template <engine::Game G>
@@ -336,7 +338,9 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     team_->stop = true;
     // A worker that a busy machine does not let run must not hold up the answer.
     constexpr Milliseconds patience{2};
-    changed_.wait_for(lock, patience, [&] { return working_ == 0; });
+    const auto all_left = [&] { return working_ == 0; };
+    changed_.wait_for(lock, patience, all_left);
+    if (!search_->tree()[search_->tree().root()].expanded()) changed_.wait(lock, all_left);
     lock.unlock();
     {
         const std::lock_guard picture(picture_mutex_);

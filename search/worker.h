@@ -44,11 +44,11 @@ class Worker {
     template <class Flip>
     void work(TreeSearch<G>& search, Team& team, Flip flip) {
         const Membership membership(team.meeting);
-        while (!team.stop.load(std::memory_order_relaxed)) {
+        while (!told_to_stop(search, team)) {
             if (team.meeting.called()) team.meeting.attend(flip);
             if (exhausted(search) || !take_turn(search, team)) return;
             while (!simulate(search, team)) {
-                if (team.stop.load(std::memory_order_relaxed)) return;
+                if (told_to_stop(search, team)) return;
                 if (team.meeting.called()) team.meeting.attend(flip);
             }
         }
@@ -62,6 +62,12 @@ class Worker {
         ~Membership() { meeting.leave(); }
         Meeting& meeting;
     };
+
+    // However short the think, there must be moves to choose from.
+    static bool told_to_stop(const TreeSearch<G>& search, const Team& team) {
+        return team.stop.load(std::memory_order_relaxed) &&
+               search.tree()[search.tree().root()].expanded();
+    }
 
     // The game is over at the root, or the visit counts are about to run out of bits.
     static bool exhausted(const TreeSearch<G>& search) {
