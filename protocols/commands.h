@@ -15,5 +15,7 @@ struct Subcommand {
 };
 
 int run_perft(Arguments arguments);
+int run_uci(Arguments arguments);
+int run_usi(Arguments arguments);
 
 }  // namespace protocols

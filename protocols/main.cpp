@@ -10,6 +10,8 @@ namespace {
 using protocols::Subcommand;
 
 constexpr Subcommand subcommands[] = {
+    {"uci", "play chess over UCI", protocols::run_uci},
+    {"usi", "play shogi over USI", protocols::run_usi},
     {"perft", "count the positions below one", protocols::run_perft},
 };
 

@@ -67,6 +67,13 @@ class GameSession final : public Session {
    public:
     explicit GameSession(const search::SearchParams& params) : searcher_(params), games_(1) {}
 
+    // Applied to the present game and to every start from now on: settings that no position text
+    // holds (Chess960 notation, rules of impasse).
+    void set_house_rules(std::function<void(G&)> apply) {
+        house_rules_ = std::move(apply);
+        for (G& game : games_) house_rules_(game);
+    }
+
     // The game now, and all states it went through, the start first.
     const G& now() const { return games_.back(); }
     std::span<const G> states() const { return games_; }
@@ -86,6 +93,7 @@ class GameSession final : public Session {
 
     void set_position(std::string_view start, std::span<const std::string> moves) override {
         std::vector<G> games{start.empty() ? G() : G::from_text(start)};
+        if (house_rules_) house_rules_(games[0]);
         for (const std::string& text : moves) {
             const auto move = games.back().move_from_text(text);
             if (!move) engine::fail("illegal move {} (number {})", text, games.size());
@@ -149,6 +157,7 @@ class GameSession final : public Session {
    private:
     search::Searcher<G> searcher_;
     std::vector<G> games_;  // the present state last
+    std::function<void(G&)> house_rules_;
 };
 
 }  // namespace protocols

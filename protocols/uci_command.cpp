@@ -1,0 +1,114 @@
+// `sanban uci` and `sanban usi`: the front end, with the options that chess and shogi alone have.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+
+#include "engine/chess/chess.h"
+#include "engine/shogi/shogi.h"
+#include "protocols/commands.h"
+#include "protocols/search_flags.h"
+#include "protocols/uci.h"
+
+namespace protocols {
+
+namespace {
+
+struct UciFlags {
+    search::SearchParams params;
+    std::string name = "sanban " SANBAN_VERSION;
+};
+
+void add_flags(CLI::App& app, UciFlags& flags) {
+    flags.params.threads = default_threads();
+    add_search_flags(app, flags.params);
+    app.add_option("--name", flags.name, "what the engine calls itself")->capture_default_str();
+}
+
+// Parses into `flags`; an exit status when that was all there is to do (--help, usage).
+std::optional<int> parse(CLI::App& app, Arguments arguments) {
+    try {
+        app.parse(static_cast<int>(arguments.size()) + 1, arguments.data() - 1);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return std::nullopt;
+}
+
+int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session> session,
+          std::vector<UciOption> extra) {
+    Output output(std::cout);
+    Uci uci(dialect, std::move(session), flags.name, output, std::move(extra));
+    uci.serve(std::cin);
+    return 0;
+}
+
+UciOption chess960(GameSession<chess::Chess>& session) {
+    return {"UCI_Chess960", "type check default false", [&session](std::string_view text) {
+                const bool chess960 = text == "true";
+                if (!chess960 && text != "false")
+                    engine::fail("UCI_Chess960 must be true or false, not {}", text);
+                session.set_house_rules([chess960](chess::Chess& game) {
+                    if (chess960) game.set_chess960(true);
+                });
+            }};
+}
+
+struct ShogiRules {
+    shogi::DeclarationRule declaration = shogi::DeclarationRule::csa_rule_27;
+    int move_limit = 0;
+};
+
+std::vector<UciOption> shogi_options(GameSession<shogi::Shogi>& session,
+                                     const std::shared_ptr<ShogiRules>& rules) {
+    const auto apply = [&session, rules] {
+        session.set_house_rules([rules](shogi::Shogi& game) {
+            game.set_declaration_rule(rules->declaration);
+            game.set_move_limit(rules->move_limit);
+        });
+    };
+    const auto set_declaration = [rules, apply](std::string_view text) {
+        const auto rule = shogi::declaration_rule_from_name(text);
+        if (!rule)
+            engine::fail("EnteringKingRule must be one of {}, not {}",
+                         fmt::join(shogi::declaration_rule_names(), ", "), text);
+        rules->declaration = *rule;
+        apply();
+    };
+    const auto set_limit = [rules, apply](std::string_view text) {
+        const int limit = engine::parse_number<int>(text);
+        if (limit < 0 || limit > 100000)
+            engine::fail("MaxMovesToDraw must lie in 0..100000, not {}", text);
+        rules->move_limit = limit;
+        apply();
+    };
+    return {{"EnteringKingRule",
+             fmt::format("type combo default CSARule27 var {}",
+                         fmt::join(shogi::declaration_rule_names(), " var ")),
+             set_declaration},
+            {"MaxMovesToDraw", "type spin default 0 min 0 max 100000", set_limit}};
+}
+
+}  // namespace
+
+int run_uci(Arguments arguments) {
+    CLI::App app("Chess over UCI", "sanban uci");
+    UciFlags flags;
+    add_flags(app, flags);
+    if (const auto status = parse(app, arguments)) return *status;
+    auto session = std::make_unique<GameSession<chess::Chess>>(flags.params);
+    auto option = chess960(*session);
+    return serve(uci_dialect, flags, std::move(session), {std::move(option)});
+}
+
+int run_usi(Arguments arguments) {
+    CLI::App app("Shogi over USI", "sanban usi");
+    UciFlags flags;
+    add_flags(app, flags);
+    if (const auto status = parse(app, arguments)) return *status;
+    auto session = std::make_unique<GameSession<shogi::Shogi>>(flags.params);
+    auto options = shogi_options(*session, std::make_shared<ShogiRules>());
+    return serve(usi_dialect, flags, std::move(session), std::move(options));
+}
+
+}  // namespace protocols
