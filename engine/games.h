@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/chess/chess.h"
+#include "engine/chess/rollouts.h"
 #include "engine/game.h"
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"

@@ -46,8 +46,11 @@ class PackedBoard {
     Bitboard white_ = 0;
 };
 
+class Rollouts;  // chess/rollouts.h
+
 class Chess {
    public:
+    using Rollouts = chess::Rollouts;
     static constexpr std::string_view name = "chess";
     // Boards that are remembered, the present one among them.
     static constexpr int remembered_boards = 8;

@@ -1,7 +1,6 @@
 #include "engine/go/bench.h"
 
-#include <chrono>
-
+#include "engine/base/measure.h"
 #include "engine/base/random.h"
 #include "engine/go/rollouts.h"
 
@@ -9,26 +8,11 @@ namespace go {
 
 namespace {
 
-// Calls run() over and over, and returns how often a second it could.
-template <class Run>
-double calls_per_second(double seconds, Run run) {
-    using Clock = std::chrono::steady_clock;
-    constexpr int batch = 64;
-    const auto start = Clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
-    double calls = 0;
-    for (; elapsed() < seconds; calls += batch)
-        for (int i = 0; i < batch; ++i) run();
-    return calls / elapsed();
-}
-
 engine::Figure rollouts(int size, double seconds) {
     const Go game(size);
     engine::Random random(1);
     Rollouts rollouts;
-    const double rate = calls_per_second(seconds, [&] { rollouts.play(game, random); });
+    const double rate = engine::calls_per_second(seconds, [&] { rollouts.play(game, random); });
     return {"go" + std::to_string(size) + "_rollouts", rate, "rollouts/s"};
 }
 
@@ -38,7 +22,7 @@ double copy_time(double seconds, const T& value) {
     std::vector<T> values(2, value);
     // Volatile, or the compiler would see that the copies change nothing.
     volatile std::size_t from = 0;
-    const double rate = calls_per_second(seconds, [&] {
+    const double rate = engine::calls_per_second(seconds, [&] {
         values[1 - from] = values[from];
         from = 1 - from;
     });
