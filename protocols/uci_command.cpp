@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "engine/chess/chess.h"
+#include "engine/chess/rollouts.h"
 #include "engine/shogi/shogi.h"
 #include "protocols/commands.h"
 #include "protocols/search_flags.h"
