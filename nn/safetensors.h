@@ -1,0 +1,21 @@
+// Our own network files: the safetensors layout (https://github.com/huggingface/safetensors), which
+// Python's `safetensors` opens unchanged. The graph and the facts are JSON in the header's
+// metadata under "sanban", a CRC-32 of that text and of all tensors under "checksum"; weights are
+// F32 tensors called "operation.weight".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "nn/graph.h"
+
+namespace nn {
+
+bool is_safetensors(std::string_view bytes);
+
+// Fails with engine::Error (what was expected, what was found) on anything but a whole, sound file;
+// what it yields is valid.
+Graph graph_from_safetensors(std::string_view bytes);
+std::string to_safetensors(const Graph& graph);
+
+}  // namespace nn
