@@ -14,7 +14,9 @@ struct Subcommand {
     int (*run)(Arguments);
 };
 
+int run_convert(Arguments arguments);
 int run_perft(Arguments arguments);
+int run_show(Arguments arguments);
 int run_uci(Arguments arguments);
 int run_usi(Arguments arguments);
 

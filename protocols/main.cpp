@@ -12,6 +12,8 @@ using protocols::Subcommand;
 constexpr Subcommand subcommands[] = {
     {"uci", "play chess over UCI", protocols::run_uci},
     {"usi", "play shogi over USI", protocols::run_usi},
+    {"show", "say what a weight file holds", protocols::run_show},
+    {"convert", "write foreign weights as ours", protocols::run_convert},
     {"perft", "count the positions below one", protocols::run_perft},
 };
 
