@@ -19,9 +19,12 @@ class RolloutBoard {
    public:
     explicit RolloutBoard(const Go& game);
 
-    // Plays a uniformly random legal move that fills no own eye; false if there is none.
+    // Plays a uniformly random legal move that fills no own eye and returns its index; or passes,
+    // if there is none, and returns 0.
     template <Colour colour>
-    bool play_random(engine::Random& random);
+    int play_random(engine::Random& random);
+
+    static Point point_of(int at) { return {at % stride - 1, at / stride - 1}; }
 
     // Whose the point is when all that is left are one-point eyes: +1 Black's, -1 White's, 0.
     std::int8_t owner(int x, int y) const;
@@ -232,7 +235,7 @@ void RolloutBoard<most_size>::play(int at) {
 
 template <int most_size>
 template <Colour colour>
-bool RolloutBoard<most_size>::play_random(engine::Random& random) {
+int RolloutBoard<most_size>::play_random(engine::Random& random) {
     // Points found unfit go behind the rest, out of the draw.
     for (int left = empty_count_; left > 0;) {
         auto& drawn = empty_[static_cast<std::size_t>(random.below(left))];
@@ -240,14 +243,14 @@ bool RolloutBoard<most_size>::play_random(engine::Random& random) {
         const bool open = cell(at).sides >= empty_side;
         if (open || (!is_eye<colour>(at) && legal_between_stones<colour>(at))) {
             play<colour>(at);
-            return true;
+            return at;
         }
         auto& last = empty_[static_cast<std::size_t>(--left)];
         std::swap(cell(drawn).slot, cell(last).slot);
         std::swap(drawn, last);
     }
     ko_ = 0;
-    return false;
+    return 0;
 }
 
 template <int most_size>

@@ -28,9 +28,9 @@ int Rollouts::play_on(const Go& from, engine::Random& random) {
     bool black = from.to_play() == Player::first;
     for (int moves = 0, passes = from.consecutive_passes(); moves < most_moves && passes < 2;
          ++moves, black = !black) {
-        const bool played = black ? board.template play_random<Colour::black>(local)
+        const int played = black ? board.template play_random<Colour::black>(local)
                                   : board.template play_random<Colour::white>(local);
-        passes = played ? 0 : passes + 1;
+        passes = played != 0 ? 0 : passes + 1;
     }
     random = local;
     int lead = 0;
