@@ -10,11 +10,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/chess/position.h"
+#include "engine/encoding.h"
 #include "engine/game.h"
 
 namespace chess {
@@ -97,6 +99,9 @@ class Chess {
     // UCI moves; both ways of castling are understood. For SAN see chess/san.h.
     std::optional<Move> move_from_text(std::string_view text) const;
     std::string move_to_text(Move move) const;
+
+    // What networks see: chess/encoding.h.
+    static std::span<const engine::Encoding<Chess>> encodings();
 
     // Perft, faster than through the interface of Game.
     std::uint64_t perft(int depth) const { return position_.perft(depth); }

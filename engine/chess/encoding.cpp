@@ -1,0 +1,115 @@
+#include "engine/chess/encoding.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdlib>
+
+#include "engine/encoding.h"
+
+namespace chess {
+
+namespace alphazero {
+
+namespace {
+
+using Step = std::array<int, 2>;  // files to the right, ranks up
+
+constexpr std::array<Step, 8> directions = {
+    {{0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}, {-1, -1}, {-1, 0}, {-1, 1}}};
+constexpr std::array<Step, 8> leaps = {
+    {{1, 2}, {2, 1}, {2, -1}, {1, -2}, {-1, -2}, {-2, -1}, {-2, 1}, {-1, 2}}};
+constexpr int first_leap = 56, first_underpromotion = 64;
+
+Square seen_by(Player player, Square square) {
+    return player == Player::first ? square : square ^ 56;
+}
+
+int number_of(const std::array<Step, 8>& steps, const Step& step) {
+    return static_cast<int>(std::find(steps.begin(), steps.end(), step) - steps.begin());
+}
+
+constexpr int sign(int number) { return (number > 0) - (number < 0); }
+
+int move_plane(const Step& step, Move move) {
+    if (kind_of(move) == MoveKind::promotion && promoted_of(move) != Piece::queen)
+        return first_underpromotion + 3 * (static_cast<int>(promoted_of(move)) - 1) + step[0] + 1;
+    const int leap = number_of(leaps, step);
+    if (leap < 8) return first_leap + leap;
+    const int distance = std::max(std::abs(step[0]), std::abs(step[1]));
+    return number_of(directions, {sign(step[0]), sign(step[1])}) * 7 + distance - 1;
+}
+
+// Writes planes one behind the other.
+class Writer {
+   public:
+    Writer(std::span<float> planes, Player mover) : planes_(planes), mover_(mover) {
+        std::fill(planes_.begin(), planes_.end(), 0.0f);
+    }
+
+    void set(Bitboard squares) {
+        while (squares != 0) planes_[index(seen_by(mover_, pop(squares)))] = 1;
+        planes_ = planes_.subspan(64);
+    }
+    void full(float value) {
+        if (value != 0) std::fill_n(planes_.begin(), 64, value);
+        planes_ = planes_.subspan(64);
+    }
+    void skip(int planes) { planes_ = planes_.subspan(static_cast<std::size_t>(planes) * 64); }
+
+   private:
+    std::span<float> planes_;
+    Player mover_;
+};
+
+void write_board(const Chess::PastBoard& past, Player mover, Writer& writer) {
+    for (const Player player : {mover, ~mover})
+        for (int kind = 0; kind < piece_kinds; ++kind)
+            writer.set(past.board.pieces(player, static_cast<Piece>(kind)));
+    writer.full(past.repetitions >= 1 ? 1.0f : 0.0f);
+    writer.full(past.repetitions >= 2 ? 1.0f : 0.0f);
+}
+
+engine::EncodingShape shape(const Chess&) {
+    return {.planes = planes, .height = 8, .width = 8, .globals = 0, .policy_size = policy_size};
+}
+
+}  // namespace
+
+void write(const Chess& game, std::span<float> out, std::span<float> globals) {
+    assert(out.size() == std::size_t{planes} * 64 && globals.empty());
+    static_cast<void>(globals);
+    const Position& position = game.position();
+    const Player mover = game.to_play();
+    Writer writer(out, mover);
+    for (int ago = 0; ago < boards; ++ago) {
+        const auto past = game.board_before(ago);
+        if (past)
+            write_board(*past, mover, writer);
+        else
+            writer.skip(planes_per_board);
+    }
+    writer.full(mover == Player::second ? 1.0f : 0.0f);
+    writer.full(static_cast<float>(position.ply() / 2 + 1) / 100);
+    for (const Player player : {mover, ~mover})
+        for (const bool king_side : {true, false})
+            writer.full(position.castling_rook(player, king_side) ? 1.0f : 0.0f);
+    writer.full(static_cast<float>(position.halfmove_clock()) / 100);
+}
+
+int policy_index(const Chess& game, Move move) {
+    const Square from = seen_by(game.to_play(), from_of(move));
+    const Square to = seen_by(game.to_play(), to_of(move));
+    const Step step = {file_of(to) - file_of(from), rank_of(to) - rank_of(from)};
+    return move_plane(step, move) * 64 + from;
+}
+
+}  // namespace alphazero
+
+std::span<const engine::Encoding<Chess>> Chess::encodings() {
+    static constexpr std::array<engine::Encoding<Chess>, 1> list = {
+        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}}};
+    return list;
+}
+
+}  // namespace chess
