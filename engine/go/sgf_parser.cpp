@@ -104,9 +104,13 @@ bool TreeParser::property() {
     auto& property = properties.emplace_back();
     property.id = id();
     const auto written = text_.substr(start, at_ - start);
-    if (property.id.empty())
-        return fail("a property name without a capital letter", engine::excerpt(written));
-    if (peek() != '[') return fail("a property without a value", engine::excerpt(written));
+    const bool named = !property.id.empty(), has_value = peek() == '[';
+    if (!named || !has_value) {
+        at_ = start;
+        return fail(
+            named ? "a property without a value" : "a property name without a capital letter",
+            engine::excerpt(written));
+    }
     if (!charge(property_cost + property.id.size()) || !values(property)) return false;
     if (property.id == "CA" && result_.tree.nodes.size() == 1) charset_from(property);
     return true;
