@@ -29,7 +29,7 @@ int Rollouts::play_on(const Go& from, engine::Random& random) {
     for (int moves = 0, passes = from.consecutive_passes(); moves < most_moves && passes < 2;
          ++moves, black = !black) {
         const int played = black ? board.template play_random<Colour::black>(local)
-                                  : board.template play_random<Colour::white>(local);
+                                 : board.template play_random<Colour::white>(local);
         passes = played != 0 ? 0 : passes + 1;
     }
     random = local;
@@ -41,7 +41,6 @@ int Rollouts::play_on(const Go& from, engine::Random& random) {
 }
 
 engine::RolloutResult Rollouts::play(const Go& from, engine::Random& random) {
-    const auto points = static_cast<std::size_t>(from.size() * from.size());
     if (from.outcome() != Outcome::ongoing) return finished(from);
     const int area = from.size() <= 9    ? play_on<9>(from, random)
                      : from.size() <= 13 ? play_on<13>(from, random)
@@ -53,7 +52,10 @@ engine::RolloutResult Rollouts::play(const Go& from, engine::Random& random) {
     const auto outcome = halves == 0  ? Outcome::draw
                          : halves > 0 ? Outcome::first_wins
                                       : Outcome::second_wins;
-    return {outcome, static_cast<float>(halves) / 2, {owners_.data(), points}};
+    const int points = from.size() * from.size();
+    return {outcome,
+            static_cast<float>(halves) / 2,
+            {owners_.data(), static_cast<std::size_t>(points)}};
 }
 
 engine::RolloutResult Rollouts::finished(const Go& game) {

@@ -90,7 +90,7 @@ TEST(GoRandom, AgreesWithTheReference) {
         for (const int size : {2, 3, 4, 5, 7, 9}) {
             Go game(size, {}, rules);
             reference::Game slow(size, rules);
-            const int moves = size < 6 ? 300 : 220;
+            const int moves = size < 5 ? 300 : 130;
             for (int i = 0; i < moves; ++i) {
                 expect_same(game, slow);
                 if (HasFatalFailure()) return;
@@ -127,7 +127,7 @@ TEST(GoRandom, LargestBoardAgreesWithTheReference) {
     engine::Random random(2);
     Go game(25);
     reference::Game slow(25, {});
-    for (int i = 0; i < 900; ++i) {
+    for (int i = 0; i < 600; ++i) {
         const auto legal = game.legal_moves();
         const auto move = legal[random.below(legal.size())];
         slow.play(place_of(game, move));
