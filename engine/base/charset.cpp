@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -13,7 +15,7 @@ namespace engine {
 
 namespace {
 
-const iconv_t no_handle = reinterpret_cast<iconv_t>(-1);
+bool is_open(iconv_t handle) { return reinterpret_cast<std::intptr_t>(handle) != -1; }
 
 struct Alias {
     std::string_view name;  // lower case, letters and digits only
@@ -69,16 +71,17 @@ std::string iconv_name(std::string_view charset) {
     return alias && well_formed(charset) ? alias->iconv_name : std::string(charset);
 }
 
-iconv_t open(std::string_view to, std::string_view from) {
+std::optional<iconv_t> open(std::string_view to, std::string_view from) {
     const auto to_name = iconv_name(to), from_name = iconv_name(from);
-    if (!well_formed(to_name) || !well_formed(from_name)) return no_handle;
-    return ::iconv_open(to_name.c_str(), from_name.c_str());
+    if (!well_formed(to_name) || !well_formed(from_name)) return {};
+    auto* const handle = ::iconv_open(to_name.c_str(), from_name.c_str());
+    return is_open(handle) ? std::optional(handle) : std::nullopt;
 }
 
 iconv_t open_or_fail(std::string_view to, std::string_view from, std::string_view charset) {
     const auto handle = open(to, from);
-    if (handle == no_handle) fail("unknown charset: {}", excerpt(charset));
-    return handle;
+    if (!handle) fail("unknown charset: {}", excerpt(charset));
+    return *handle;
 }
 
 // Bytes to pass over where the conversion cannot go on: a whole character of UTF-8 input.
@@ -118,9 +121,8 @@ std::string convert(iconv_t handle, std::string_view rest, std::string_view stan
 bool is_charset(std::string_view charset) {
     if (iconv_name(charset) == "UTF-8") return true;
     const auto handle = open("UTF-8", charset);
-    if (handle == no_handle) return false;
-    ::iconv_close(handle);
-    return true;
+    if (handle) ::iconv_close(*handle);
+    return handle.has_value();
 }
 
 Decoder::Decoder(std::string_view charset)

@@ -1,6 +1,7 @@
 #include "engine/base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace engine {
@@ -9,26 +10,42 @@ namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
+// Table 3-7 of the Unicode standard: a range of first bytes, that of the second byte after it
+// (any further one is 0x80..0xBF), and the length.
+struct Form {
+    std::uint8_t first, last, second_least, second_most;
+    std::size_t length;
+};
+constexpr std::array<Form, 9> forms{{
+    {0x00, 0x7F, 0x00, 0xFF, 1},
+    {0xC2, 0xDF, 0x80, 0xBF, 2},
+    {0xE0, 0xE0, 0xA0, 0xBF, 3},
+    {0xE1, 0xEC, 0x80, 0xBF, 3},
+    {0xED, 0xED, 0x80, 0x9F, 3},
+    {0xEE, 0xEF, 0x80, 0xBF, 3},
+    {0xF0, 0xF0, 0x90, 0xBF, 4},
+    {0xF1, 0xF3, 0x80, 0xBF, 4},
+    {0xF4, 0xF4, 0x80, 0x8F, 4},
+}};
+
+bool has_form(std::string_view text, const Form& form) {
+    if (text.size() < form.length) return false;
+    const auto within = [&](std::size_t i, std::uint8_t least, std::uint8_t most) {
+        const auto byte = static_cast<std::uint8_t>(text[i]);
+        return byte >= least && byte <= most;
+    };
+    if (!within(0, form.first, form.last)) return false;
+    if (form.length > 1 && !within(1, form.second_least, form.second_most)) return false;
+    for (std::size_t i = 2; i < form.length; ++i)
+        if (!within(i, 0x80, 0xBF)) return false;
+    return true;
+}
+
 // Bytes of the well-formed character that `text` begins with, 0 if there is none.
 std::size_t character_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) {
-        return i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};
-    };
-    const auto continues = [&](std::size_t i, int least = 0x80, int most = 0xBF) {
-        return byte(i) >= least && byte(i) <= most;
-    };
-    const int lead = byte(0);
-    if (lead < 0x80) return 1;
-    if (lead >= 0xC2 && lead <= 0xDF) return continues(1) ? 2 : 0;
-    if (lead >= 0xE0 && lead <= 0xEF) {
-        const bool second = continues(1, lead == 0xE0 ? 0xA0 : 0x80, lead == 0xED ? 0x9F : 0xBF);
-        return second && continues(2) ? 3 : 0;
-    }
-    if (lead >= 0xF0 && lead <= 0xF4) {
-        const bool second = continues(1, lead == 0xF0 ? 0x90 : 0x80, lead == 0xF4 ? 0x8F : 0xBF);
-        return second && continues(2) && continues(3) ? 4 : 0;
-    }
-    return 0;
+    const auto* const form =
+        std::find_if(forms.begin(), forms.end(), [&](const Form& f) { return has_form(text, f); });
+    return form == forms.end() ? 0 : form->length;
 }
 
 }  // namespace

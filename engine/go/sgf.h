@@ -105,7 +105,8 @@ struct Record {
 
 // Plays through the tree's main line, at most `most_moves` of it, with the set-up that follows the
 // last of them. Fails with engine::Error naming the move number when a move is illegal or
-// malformed, and when the game is not Go, its board not square or not of 2 to 25 lines.
+// malformed, when the game is not Go, its board not square or not of 2 to 25 lines, and past 65 536
+// moves or 1 024 nodes of set-up: no game, and it could be made to take hours.
 //
 // RU: a name or JSON of go/rules.h, else (or without RU) Chinese rules. KM: without it the rules'
 // usual komi. A whole number of 200 or more without decimal point is in hundredths, as the Fox
@@ -113,7 +114,7 @@ struct Record {
 // are 7.5); anything else off the half points is rounded to the nearest, and what is no number
 // within ±1000 gives the rules' usual komi. HA without AB puts the stones on GTP's fixed points if
 // White moves first. A pass is B[], or B[tt] up to 19x19.
-Record main_line(const Tree& tree, int most_moves = 1 << 16);
+Record main_line(const Tree& tree, int most_moves = 1 << 20);
 
 // A tree of one line; `facts` are root properties such as {"PB", {"sanban"}}, and stand in for
 // those made here. `comments`: to the turns, in order, as far as they go.

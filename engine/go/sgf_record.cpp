@@ -11,7 +11,7 @@ namespace go::sgf {
 
 namespace {
 
-constexpr int most_turns = 1 << 16, most_set_ups = 1 << 12;
+constexpr int most_turns = 1 << 16, most_set_ups = 1 << 10;
 constexpr int largest_board_with_tt = 19;  // there "tt" is a pass
 
 std::optional<Player> mover_of(const Property& property) {
@@ -89,7 +89,7 @@ std::optional<Point> point_from(std::string_view text, int size) {
 // The stones that one node puts or takes, the last word on a point counting.
 class SetUp {
    public:
-    explicit SetUp(int size) : size_(size) { change_.fill(untouched); }
+    explicit SetUp(int size) : size_(size) {}
 
     // A point or a rectangle "aa:cc"; false when it is neither.
     bool add(std::string_view text, char stone) {
@@ -100,7 +100,7 @@ class SetUp {
         if (!from || !to) return false;
         for (int y = std::min(from->y, to->y); y <= std::max(from->y, to->y); ++y)
             for (int x = std::min(from->x, to->x); x <= std::max(from->x, to->x); ++x)
-                change_[static_cast<std::size_t>(y * size_ + x)] = stone;
+                change_at({x, y}) = stone;
         return true;
     }
 
@@ -115,8 +115,14 @@ class SetUp {
     static constexpr char untouched = 0, empty = 'E', black = 'B', white = 'W';
 
    private:
+    char& change_at(Point point) {
+        return change_[static_cast<std::size_t>(point.y)][static_cast<std::size_t>(point.x)];
+    }
+    char change_at(Point point) const {
+        return change_[static_cast<std::size_t>(point.y)][static_cast<std::size_t>(point.x)];
+    }
     bool put(Go& game, Point point) const {
-        const char change = change_[static_cast<std::size_t>(point.y * size_ + point.x)];
+        const char change = change_at(point);
         if (change == untouched) return false;
         std::optional<Player> stone;
         if (change != empty) stone = change == black ? Player::first : Player::second;
@@ -126,7 +132,7 @@ class SetUp {
     }
 
     int size_;
-    std::array<char, max_size * max_size> change_;
+    std::array<std::array<char, max_size>, max_size> change_{};  // rows from the bottom
 };
 
 bool is_set_up(std::string_view id) { return id == "AB" || id == "AW" || id == "AE"; }

@@ -22,7 +22,7 @@ std::string komi_text(Komi komi) {
 
 // SGF has its own spelling of a few names.
 std::string rules_text(const Rules& rules) {
-    const auto name = describe(rules);
+    auto name = describe(rules);
     constexpr std::pair<std::string_view, std::string_view> spelled[] = {
         {"chinese", "Chinese"}, {"japanese", "Japanese"}, {"korean", "Korean"},
         {"aga", "AGA"},         {"new-zealand", "NZ"},    {"ing", "GOE"},
