@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Record record(std::string_view text, int most_moves = 1 << 16) {
+Record record(std::string_view text, int most_moves = 1 << 20) {
     return main_line(parse(text).front(), most_moves);
 }
 
@@ -138,6 +138,15 @@ TEST(SgfRecord, KoIsRefused) {
     constexpr std::string_view ko =
         "(;SZ[9];B[ba];W[ca];B[ab];W[db];B[bc];W[cc];B[cb];W[bb];B[cb])";
     EXPECT_EQ(why_refused(ko), "move 9: B[cb] is illegal: ko");
+}
+
+TEST(SgfRecord, MainLinesWithoutEndAreRefused) {
+    std::string passes, set_ups;
+    for (int i = 0; i < 70000; ++i) passes += i % 2 == 0 ? ";B[]" : ";W[]";
+    for (int i = 0; i < 2000; ++i) set_ups += i % 2 == 0 ? ";AB[aa]" : ";AE[aa]";
+    EXPECT_EQ(why_refused("(;SZ[9]" + passes + ")"), "move 65537: more than 65536 moves");
+    EXPECT_EQ(record("(;SZ[9]" + passes + ")", 100).turns.size(), 100u);
+    EXPECT_EQ(why_refused("(;SZ[9]" + set_ups + ")"), "move 1: more than 1024 set-ups");
 }
 
 TEST(SgfRecord, TreeOfReadsBackTheSame) {
