@@ -5,6 +5,9 @@ build_packages=(g++ cmake ninja-build libfmt-dev libspdlog-dev libcli11-dev nloh
 test_packages=(libgtest-dev gnugo)
 check_packages=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
 
+# Debian keeps opponents there, and root has it not in its path.
+PATH=$PATH:/usr/games
+
 say() { echo "$*" >&2; }
 
 missing_packages() {

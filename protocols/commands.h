@@ -15,6 +15,8 @@ struct Subcommand {
 };
 
 int run_convert(Arguments arguments);
+int run_bench(Arguments arguments);
+int run_gtp(Arguments arguments);
 int run_perft(Arguments arguments);
 int run_show(Arguments arguments);
 int run_uci(Arguments arguments);

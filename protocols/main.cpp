@@ -10,10 +10,12 @@ namespace {
 using protocols::Subcommand;
 
 constexpr Subcommand subcommands[] = {
+    {"gtp", "play Go over GTP", protocols::run_gtp},
     {"uci", "play chess over UCI", protocols::run_uci},
     {"usi", "play shogi over USI", protocols::run_usi},
     {"show", "say what a weight file holds", protocols::run_show},
     {"convert", "write foreign weights as ours", protocols::run_convert},
+    {"bench", "measure speed, a figure a line", protocols::run_bench},
     {"perft", "count the positions below one", protocols::run_perft},
 };
 

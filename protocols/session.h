@@ -84,7 +84,15 @@ class GameSession final : public Session {
     void play(engine::Move move) {
         G next = games_.back();
         next.play(move);
-        games_.push_back(std::move(next));
+        append(next);
+    }
+    // One state more, for games whose turns need not alternate.
+    void append(const G& next) { games_.push_back(next); }
+    // The present state put right: another side to move, say.
+    void replace_last(const G& game) { games_.back() = game; }
+    // A setting that holds for the whole game.
+    void change_all(const std::function<void(G&)>& change) {
+        for (G& game : games_) change(game);
     }
 
     std::string_view game() const override { return G::name; }

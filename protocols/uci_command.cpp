@@ -8,7 +8,7 @@
 #include "engine/chess/rollouts.h"
 #include "engine/shogi/shogi.h"
 #include "protocols/commands.h"
-#include "protocols/search_flags.h"
+#include "protocols/flags.h"
 #include "protocols/uci.h"
 
 namespace protocols {
@@ -24,16 +24,6 @@ void add_flags(CLI::App& app, UciFlags& flags) {
     flags.params.threads = default_threads();
     add_search_flags(app, flags.params);
     app.add_option("--name", flags.name, "what the engine calls itself")->capture_default_str();
-}
-
-// Parses into `flags`; an exit status when that was all there is to do (--help, usage).
-std::optional<int> parse(CLI::App& app, Arguments arguments) {
-    try {
-        app.parse(static_cast<int>(arguments.size()) + 1, arguments.data() - 1);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
-    return std::nullopt;
 }
 
 int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session> session,
@@ -96,7 +86,7 @@ int run_uci(Arguments arguments) {
     CLI::App app("Chess over UCI", "sanban uci");
     UciFlags flags;
     add_flags(app, flags);
-    if (const auto status = parse(app, arguments)) return *status;
+    if (const auto status = parse_flags(app, arguments)) return *status;
     auto session = std::make_unique<GameSession<chess::Chess>>(flags.params);
     auto option = chess960(*session);
     return serve(uci_dialect, flags, std::move(session), {std::move(option)});
@@ -106,7 +96,7 @@ int run_usi(Arguments arguments) {
     CLI::App app("Shogi over USI", "sanban usi");
     UciFlags flags;
     add_flags(app, flags);
-    if (const auto status = parse(app, arguments)) return *status;
+    if (const auto status = parse_flags(app, arguments)) return *status;
     auto session = std::make_unique<GameSession<shogi::Shogi>>(flags.params);
     auto options = shogi_options(*session, std::make_shared<ShogiRules>());
     return serve(usi_dialect, flags, std::move(session), std::move(options));

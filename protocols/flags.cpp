@@ -1,4 +1,4 @@
-#include "protocols/search_flags.h"
+#include "protocols/flags.h"
 
 #include <algorithm>
 #include <string>
@@ -17,6 +17,16 @@ void add_search_flags(CLI::App& app, search::SearchParams& params) {
                help)
             ->default_str(row.value);
     }
+}
+
+std::optional<int> parse_flags(CLI::App& app, Arguments arguments) {
+    try {
+        // CLI11 passes over the first word, which here is the subcommand's name.
+        app.parse(static_cast<int>(arguments.size()) + 1, arguments.data() - 1);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return std::nullopt;
 }
 
 int default_threads() {

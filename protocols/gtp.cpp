@@ -1,0 +1,266 @@
+// The table of GTP commands, and how a line becomes a call of one.
+#include "protocols/gtp.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace protocols {
+
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    return result;
+}
+
+bool is_number(std::string_view word) {
+    return !word.empty() && word.find_first_not_of("0123456789") == word.npos;
+}
+
+}  // namespace
+
+std::span<const Gtp::Command> Gtp::commands() {
+    static constexpr Command table[] = {
+        {"protocol_version", &Gtp::protocol_version, "", "version of GTP"},
+        {"name", &Gtp::name, "", "name of the engine"},
+        {"version", &Gtp::version, "", "version of the engine"},
+        {"known_command", &Gtp::known_command, "COMMAND", "whether there is such a command"},
+        {"list_commands", &Gtp::list_commands, "", "all commands, one a line"},
+        {"help", &Gtp::help, "[COMMAND]", "what a command does, or all of them"},
+        {"quit", &Gtp::quit, "", "end the program"},
+        {"stop", &Gtp::stop, "", "end an analysis"},
+        {"clear_cache", &Gtp::clear_cache, "", "forget what the search knows"},
+        {"cputime", &Gtp::cpu_time, "", "seconds of processor time used so far"},
+        {"gomill-cpu_time", &Gtp::cpu_time, "", "as cputime"},
+
+        {"boardsize", &Gtp::board_size, "SIZE", "empty board of 2 to 25 lines"},
+        {"rectangular_boardsize", &Gtp::rectangular_board_size, "X Y", "as boardsize; X equals Y"},
+        {"query_boardsize", &Gtp::query_board_size, "", "size of the board"},
+        {"clear_board", &Gtp::clear_board, "", "start a new game"},
+        {"komi", &Gtp::komi, "KOMI", "a multiple of 0.5 within 1000"},
+        {"get_komi", &Gtp::query_komi, "", "komi in force"},
+        {"play", &Gtp::play, "COLOUR VERTEX", "play a move; colours need not alternate"},
+        {"gogui-play_sequence", &Gtp::play_sequence, "COLOUR VERTEX ...", "play several moves"},
+        {"undo", &Gtp::undo, "", "take the last move back"},
+        {"gg-undo", &Gtp::undo_many, "[N]", "take N moves back"},
+        {"showboard", &Gtp::show_board, "", "the board, rules, komi and prisoners"},
+        {"fixed_handicap", &Gtp::fixed_handicap, "N", "N black stones on the star points"},
+        {"place_free_handicap", &Gtp::place_free_handicap, "N", "N black stones of our choice"},
+        {"set_free_handicap", &Gtp::set_free_handicap, "VERTEX ...", "black stones there"},
+        {"get_handicap", &Gtp::query_handicap, "", "handicap stones"},
+        {"set_position", &Gtp::set_position, "COLOUR VERTEX ...", "a board of these stones"},
+        {"gogui-setup", &Gtp::set_position, "COLOUR VERTEX ...", "as set_position"},
+        {"gogui-setup_player", &Gtp::setup_player, "COLOUR", "who is to move"},
+        {"all_legal", &Gtp::all_legal, "COLOUR", "all legal points"},
+        {"is_legal", &Gtp::is_legal, "COLOUR VERTEX", "1 or 0"},
+        {"list_stones", &Gtp::list_stones, "COLOUR", "points with a stone of the colour"},
+        {"captures", &Gtp::captures, "COLOUR", "prisoners that the colour took"},
+        {"last_move", &Gtp::last_move, "", "colour and vertex"},
+        {"move_history", &Gtp::move_history, "", "moves so far, the last first"},
+        {"kata-get-rules", &Gtp::rules, "", "rules in force, as JSON"},
+        {"kata-set-rules", &Gtp::set_rules, "NAME|JSON", "rules by name or by fields"},
+        {"kata-set-rule", &Gtp::set_rule, "FIELD VALUE", "one field of the rules"},
+        {"loadsgf", &Gtp::load_sgf, "FILE [MOVE]", "the main line, to before that move"},
+        {"printsgf", &Gtp::print_sgf, "[FILE|-]", "the game as SGF"},
+
+        {"time_settings", &Gtp::time_settings, "MAIN PERIOD STONES", "seconds; Canadian overtime"},
+        {"kgs-time_settings", &Gtp::kgs_time_settings,
+         "none | absolute M | byoyomi M P N | canadian M P S", "time control"},
+        {"kata-time_settings", &Gtp::kata_time_settings,
+         "none | absolute M | byoyomi M P N | canadian M P S | fischer M I", "time control"},
+        {"kata-list_time_settings", &Gtp::list_time_settings, "", "kinds of kata-time_settings"},
+        {"time_left", &Gtp::time_left, "COLOUR SECONDS STONES", "what a side has left"},
+
+        {"genmove", &Gtp::genmove, "COLOUR", "think and play"},
+        {"reg_genmove", &Gtp::reg_genmove, "COLOUR", "think, and do not play"},
+        {"kgs-genmove_cleanup", &Gtp::cleanup, "COLOUR", "play until no dead stone is left"},
+        {"lz-genmove_analyze", &Gtp::lz_genmove_analyze, "[COLOUR] [CS] [KEY VALUE]...",
+         "genmove with reports"},
+        {"kata-genmove_analyze", &Gtp::kata_genmove_analyze, "[COLOUR] [CS] [KEY VALUE]...",
+         "genmove with reports"},
+        {"genmove_analyze", &Gtp::any_genmove_analyze, "[COLOUR] [CS] [KEY VALUE]...",
+         "genmove with reports"},
+        {"kata-search_analyze", &Gtp::kata_search_analyze, "[COLOUR] [CS] [KEY VALUE]...",
+         "as kata-genmove_analyze, without playing"},
+        {"kata-search_analyze_cancellable", &Gtp::kata_search_cancellable,
+         "[COLOUR] [CS] [KEY VALUE]...", "likewise, ended by any line"},
+        {"lz-analyze", &Gtp::lz_analyze, "[COLOUR] [CS] [KEY VALUE]...", "analyse until any line"},
+        {"kata-analyze", &Gtp::kata_analyze, "[COLOUR] [CS] [KEY VALUE]...",
+         "analyse until any line"},
+        {"analyze", &Gtp::any_analyze, "[COLOUR] [CS] [KEY VALUE]...", "analyse until any line"},
+        {"top_moves", &Gtp::top_moves, "", "best moves of the last search, with winrates"},
+        {"final_score", &Gtp::final_score, "", "result, dead stones off where rules agree on them"},
+        {"estimate_score", &Gtp::estimate_score, "", "expected lead from the games played out"},
+        {"final_status_list", &Gtp::final_status_list, "alive|seki|dead", "stones of that fate"},
+        {"final_status", &Gtp::final_status, "VERTEX", "fate of one stone"},
+
+        {"gogui-analyze_commands", &Gtp::gogui_commands, "", "what GoGui can show"},
+        {"gogui-interrupt", &Gtp::nothing, "", "genmove may be cut short by `# interrupt`"},
+        {"sanban-ownership", &Gtp::gogui_ownership, "", "expected owner of each point"},
+        {"sanban-visits", &Gtp::gogui_visits, "", "visits of each move"},
+        {"sanban-variation", &Gtp::gogui_variation, "", "principal variation"},
+        {"kgs-chat", &Gtp::chat, "KIND NAME MESSAGE", "answer a chat message"},
+        {"kgs-game_over", &Gtp::nothing, "", "the server's word that the game has ended"},
+        {"get_random_seed", &Gtp::random_seed, "", "seed of all randomness"},
+        {"set_random_seed", &Gtp::set_random_seed, "SEED", "seed of all randomness"},
+        {"lz-setoption", &Gtp::set_option, "name NAME value VALUE",
+         "options by Leela Zero's names"},
+        {"lz-memory_report", &Gtp::memory_report, "", "share of the memory that is used"},
+        {"kata-list-params", &Gtp::list_params, "", "names for kata-get-param"},
+        {"kata-get-params", &Gtp::all_params, "", "all parameters, as JSON"},
+        {"kata-get-param", &Gtp::param, "NAME", "a parameter's value"},
+        {"kata-set-param", &Gtp::set_param, "NAME VALUE", "set a parameter"},
+    };
+    return table;
+}
+
+std::string Gtp::manual() {
+    std::string text = "| command | arguments | what it does |\n|---|---|---|\n";
+    for (const auto& command : commands()) {
+        std::string arguments(command.arguments);
+        for (std::size_t at = 0; (at = arguments.find('|', at)) != arguments.npos; at += 2)
+            arguments.insert(at, "\\");
+        text += fmt::format("| `{}` | {} | {} |\n", command.name, arguments, command.help);
+    }
+    return text;
+}
+
+Words::Words(std::string_view text) {
+    std::istringstream in{std::string(text)};
+    for (std::string word; in >> word;) words_.push_back(word);
+}
+
+std::string_view Words::take(std::string_view what) {
+    if (empty()) engine::fail("{} is missing", what);
+    return words_[at_++];
+}
+
+int Words::whole(std::string_view what, int least, int most) {
+    const auto text = take(what);
+    int value = 0;
+    try {
+        value = engine::parse_number<int>(text);
+    } catch (const engine::Error&) {
+        engine::fail("{} must be a whole number in {}..{}, not {}", what, least, most, text);
+    }
+    if (value < least || value > most)
+        engine::fail("{} must lie in {}..{}, not {}", what, least, most, text);
+    return value;
+}
+
+double Words::number(std::string_view what, double least, double most) {
+    const auto text = take(what);
+    double value = 0;
+    try {
+        value = engine::parse_number<double>(text);
+    } catch (const engine::Error&) {
+        engine::fail("{} must be a number in {}..{}, not {}", what, least, most, text);
+    }
+    if (value < least || value > most)
+        engine::fail("{} must lie in {}..{}, not {}", what, least, most, text);
+    return value;
+}
+
+engine::Player Words::colour() {
+    const auto text = lower(take("the colour"));
+    if (text == "b" || text == "black") return engine::Player::first;
+    if (text == "w" || text == "white") return engine::Player::second;
+    engine::fail("the colour is b, w, black or white, not {}", text);
+}
+
+std::string Words::rest() const {
+    std::string text;
+    for (std::size_t i = at_; i < words_.size(); ++i)
+        text.append(text.empty() ? "" : " ").append(words_[i]);
+    return text;
+}
+
+Gtp::Gtp(const GtpSettings& settings, const search::SearchParams& params, Output& out)
+    : settings_(settings), out_(out), session_(params) {
+    restart(go::Go(settings.size, go::Komi::from_points(settings.komi), settings.rules));
+}
+
+Gtp::~Gtp() { session_.stop(); }
+
+const Gtp::Command* Gtp::find(std::string_view name) const {
+    const auto table = commands();
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const Command& command) { return command.name == name; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+void Gtp::serve(std::istream& in) {
+    InputAhead input(in, [this](const Line& line) { arrived(line.text); });
+    for (Line line; input.pop(line);) {
+        if (line.too_long) {
+            end_analysis();
+            id_.clear();
+            answer('?', fmt::format("a line is longer than {} bytes", longest_line));
+        } else if (!handle(line.text)) {
+            return;
+        }
+    }
+    end_analysis();
+}
+
+void Gtp::arrived(std::string_view line) {
+    const auto purpose = thinking_.load();
+    const auto text = lower(line);
+    const bool interrupts = text.starts_with("# interrupt") || text == "stop" ||
+                            text.find("gogui-interrupt") != text.npos;
+    const bool cuts =
+        purpose == Thinking::cancellable || (purpose == Thinking::to_move && interrupts);
+    if (!cuts) return;
+    cut_ = true;
+    session_.interrupt();
+}
+
+bool Gtp::handle(std::string_view line) {
+    if (thinking_ == Thinking::analysing) end_analysis();
+    line = line.substr(0, line.find('#'));
+    Words words(line);
+    if (words.empty()) return true;
+    session_.stop();  // a ponder
+    id_.clear();
+    if (is_number(words.peek())) id_ = words.take("id");
+    if (words.empty()) return answer('?', "the command is missing"), true;
+    const std::string name(words.take("the command"));
+    const Command* command = find(name);
+    if (!command) return answer('?', "unknown command"), true;
+    run(*command, words.rest());
+    return !quitting_;
+}
+
+void Gtp::run(const Command& command, std::string_view arguments) {
+    answered_ = false;
+    try {
+        Words words(arguments);
+        const auto text = (this->*command.run)(words);
+        if (!answered_) answer('=', text);
+    } catch (const engine::Error& error) {
+        // After the first line of a streamed answer only its end is left to say.
+        if (answered_)
+            out_.line("");
+        else
+            answer('?', error.what());
+    }
+    if (settings_.ponder && command.run == &Gtp::genmove) ponder();
+}
+
+void Gtp::answer(char sign, std::string_view text) {
+    answered_ = true;
+    out_.line(fmt::format("{}{} {}\n", sign, id_, text));
+}
+
+void Gtp::end_analysis() {
+    if (thinking_ != Thinking::analysing) return;
+    session_.stop();
+    thinking_ = Thinking::no;
+    remember(session_.searcher().analysis());
+    out_.line("");
+}
+
+}  // namespace protocols
