@@ -2,12 +2,25 @@
 // visit count and then scores each edge by what is known of its child.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "search/tree.h"
 
 namespace search {
+
+// The natural logarithm to 6 digits for x >= 1, from operations that IEEE 754 defines to the last
+// bit: the libraries' differ from processor to processor, and with them the signature.
+inline float portable_log(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    const float fraction = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f800000u);  // 1..2
+    const auto exponent = static_cast<float>(static_cast<int>(bits >> 23) - 127);
+    // ln m = 2 artanh t, about the middle of 1..2.
+    const float t = (fraction - 1.41421356f) / (fraction + 1.41421356f), square = t * t;
+    const float series = 1 + square * (1 / 3.0f + square * (1 / 5.0f + square * (1 / 7.0f)));
+    return (exponent + 0.5f) * 0.69314718f + 2 * t * series;
+}
 
 // UCB1 (Auer et al. 2002) as UCT uses it (Kocsis & Szepesvari 2006): mean value as the mover sees
 // it plus exploration * sqrt(ln N / n). An unvisited move scores `unvisited`; above any value plus

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "engine/go/go.h"
+#include "engine/go/rollouts.h"
+#include "search/searcher.h"
+
+namespace search {
+namespace {
+
+using go::Go;
+
+SearchParams small(int threads) {
+    SearchParams params;
+    params.memory_mib = 16;
+    params.threads = threads;
+    params.early_end = false;
+    return params;
+}
+
+// MiB of this process in memory, 0 where the system does not say.
+double resident_mib() {
+    std::ifstream statm("/proc/self/statm");
+    double total = 0, resident = 0;
+    statm >> total >> resident;
+    return resident * 4096 / (1 << 20);
+}
+
+TEST(GoSearch, KnowsWhoOwnsWhat) {
+    Searcher<Go> searcher(small(1));
+    Go game(5);
+    for (const auto* move : {"C1", "E5", "C2", "E4", "C3", "E3", "C4", "pass", "C5", "pass"})
+        game.play(*game.move_from_text(move));
+    searcher.set_position(game);
+    Limits limits;
+    limits.simulations = 2000;
+    const auto picture = searcher.think(limits);
+    ASSERT_EQ(picture.owners.size(), 25u);
+    EXPECT_GT(picture.owners[2 * 5 + 2], 0.9f);  // C3, the mover's own
+    EXPECT_GT(picture.owners[2 * 5 + 0], 0.5f);  // A3, behind it
+    EXPECT_GT(picture.lead, -7.5f);
+}
+
+// A budget of which the tree needs many times as much: search goes on, within it.
+TEST(GoSearch, GoesOnInALittleMemory) {
+    const double before = resident_mib();
+    auto params = small(2);
+    Searcher<Go> searcher(params);
+    searcher.set_position(Go(9));
+    Limits limits;
+    limits.simulations = 50000;
+    std::uint64_t visits = 0;
+    for (int part = 0; part < 2; ++part) {
+        const auto picture = searcher.think(limits);
+        EXPECT_EQ(picture.simulations, 50000u);
+        EXPECT_EQ(picture.visits, visits + 50000u);
+        EXPECT_TRUE(picture.fault.empty());
+        EXPECT_LE(picture.memory_used, 1.0f);
+        visits = picture.visits;
+    }
+    EXPECT_LT(resident_mib() - before, 16 + 32);
+    const auto best = searcher.position().point_of(searcher.analysis().moves.at(0).move);
+    ASSERT_TRUE(best);  // no pass on the empty board, and no move on the first line
+    EXPECT_TRUE(best->x > 0 && best->x < 8 && best->y > 0 && best->y < 8);
+}
+
+TEST(GoSearch, StopsInTheMiddleOfLongRollouts) {
+    Searcher<Go> searcher(small(2));
+    searcher.set_position(Go(25));
+    searcher.start({}, {}, {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    searcher.stop();
+    EXPECT_FALSE(searcher.thinking());
+    EXPECT_EQ(searcher.analysis().moves.size(), 626u);
+}
+
+}  // namespace
+}  // namespace search
