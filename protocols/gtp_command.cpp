@@ -10,7 +10,9 @@
 
 namespace protocols {
 
-int run_gtp(Arguments arguments) {
+int run_gtp(Arguments arguments) { return run_gtp_from(arguments, ""); }
+
+int run_gtp_from(Arguments arguments, std::string_view first_line) {
     CLI::App app("Go over the Go Text Protocol", "sanban gtp");
     GtpSettings settings;
     search::SearchParams params;
@@ -39,7 +41,7 @@ int run_gtp(Arguments arguments) {
     settings.rules = go::rules_from_text(rules);
     Output output(std::cout);
     Gtp gtp(settings, params, output);
-    gtp.serve(std::cin);
+    if (gtp.handle(first_line)) gtp.serve(std::cin);
     // The reading thread may sit in a read that never ends: leave without waiting for it.
     std::fflush(stdout);
     std::quick_exit(0);

@@ -10,6 +10,7 @@ namespace {
 using protocols::Subcommand;
 
 constexpr Subcommand subcommands[] = {
+    {"play", "a game in the terminal", protocols::run_play},
     {"gtp", "play Go over GTP", protocols::run_gtp},
     {"uci", "play chess over UCI", protocols::run_uci},
     {"usi", "play shogi over USI", protocols::run_usi},
@@ -19,20 +20,27 @@ constexpr Subcommand subcommands[] = {
     {"perft", "count the positions below one", protocols::run_perft},
 };
 
-int usage(std::ostream& out) {
-    out << "usage: sanban COMMAND [ARGUMENT]...\n";
+void describe(std::ostream& out) {
+    out << "usage: sanban [COMMAND [ARGUMENT]...]\n\n"
+           "Without a command: a game in the terminal, or the protocol (UCI, USI, GTP) that the "
+           "first\n"
+           "line of piped input is of. `sanban COMMAND --help` lists a command's flags.\n\n";
     for (const auto& [name, help, run] : subcommands) out << "  " << name << "\t" << help << '\n';
-    return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
     const std::span arguments(argv, static_cast<std::size_t>(argc));
-    if (argc < 2) return usage(std::cerr);
+    if (argc < 2) return protocols::run_bare(arguments.subspan(1));
+    const std::string_view wanted = arguments[1];
     for (const auto& subcommand : subcommands)
-        if (subcommand.name == arguments[1]) return subcommand.run(arguments.subspan(2));
-    return usage(std::cerr);
+        if (subcommand.name == wanted) return subcommand.run(arguments.subspan(2));
+    if (wanted == "--version") return std::cout << "sanban " SANBAN_VERSION "\n", 0;
+    if (wanted == "--help" || wanted == "-h") return describe(std::cout), 0;
+    std::cerr << "sanban: there is no command " << wanted << "\n\n";
+    describe(std::cerr);
+    return 2;
 } catch (const engine::Error& error) {
     std::cerr << "sanban: " << error.what() << '\n';
     return 1;

@@ -27,10 +27,10 @@ void add_flags(CLI::App& app, UciFlags& flags) {
 }
 
 int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session> session,
-          std::vector<UciOption> extra) {
+          std::vector<UciOption> extra, std::string_view first_line) {
     Output output(std::cout);
     Uci uci(dialect, std::move(session), flags.name, output, std::move(extra));
-    uci.serve(std::cin);
+    if (uci.handle(first_line)) uci.serve(std::cin);
     return 0;
 }
 
@@ -82,24 +82,27 @@ std::vector<UciOption> shogi_options(GameSession<shogi::Shogi>& session,
 
 }  // namespace
 
-int run_uci(Arguments arguments) {
+int run_uci(Arguments arguments) { return run_uci_from(arguments, ""); }
+int run_usi(Arguments arguments) { return run_usi_from(arguments, ""); }
+
+int run_uci_from(Arguments arguments, std::string_view first_line) {
     CLI::App app("Chess over UCI", "sanban uci");
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
     auto session = std::make_unique<GameSession<chess::Chess>>(flags.params);
     auto option = chess960(*session);
-    return serve(uci_dialect, flags, std::move(session), {std::move(option)});
+    return serve(uci_dialect, flags, std::move(session), {std::move(option)}, first_line);
 }
 
-int run_usi(Arguments arguments) {
+int run_usi_from(Arguments arguments, std::string_view first_line) {
     CLI::App app("Shogi over USI", "sanban usi");
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
     auto session = std::make_unique<GameSession<shogi::Shogi>>(flags.params);
     auto options = shogi_options(*session, std::make_shared<ShogiRules>());
-    return serve(usi_dialect, flags, std::move(session), std::move(options));
+    return serve(usi_dialect, flags, std::move(session), std::move(options), first_line);
 }
 
 }  // namespace protocols

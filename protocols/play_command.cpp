@@ -1,0 +1,182 @@
+// `sanban play`: a game in the terminal; and `sanban` without arguments.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "engine/base/files.h"
+#include "engine/chess/chess.h"
+#include "engine/chess/rollouts.h"
+#include "engine/go/go.h"
+#include "engine/go/rollouts.h"
+#include "engine/go/sgf.h"
+#include "engine/shogi/shogi.h"
+#include "protocols/commands.h"
+#include "protocols/flags.h"
+#include "protocols/go_endgame.h"
+#include "protocols/gtp.h"
+#include "protocols/terminal.h"
+#include "protocols/uci.h"
+
+namespace protocols {
+
+namespace {
+
+struct PlayFlags {
+    search::SearchParams params;
+    TerminalSettings terminal;
+    std::string game = "go", colour = "first", rules = "chinese";
+    int size = 9;
+    double komi = 7.5;
+};
+
+std::vector<float> black_owners(const search::Analysis& picture, const go::Go& game) {
+    auto owners = picture.owners;
+    owners.resize(static_cast<std::size_t>(game.size() * game.size()));
+    if (game.to_play() == engine::Player::second)
+        for (float& owner : owners) owner = -owner;
+    return owners;
+}
+
+void save_sgf(const GameSession<go::Go>& session, const std::string& result,
+              const std::string& path) {
+    std::vector<go::sgf::Turn> turns;
+    const auto states = session.states();
+    for (std::size_t i = 1; i < states.size(); ++i)
+        turns.push_back({states[i - 1].to_play(), *states[i].move_before(0)});
+    engine::write_file(path, go::sgf::to_text(go::sgf::tree_of(states.front(), turns, result)));
+}
+
+int play_go(const PlayFlags& flags) {
+    GameSession<go::Go> session(flags.params);
+    session.restart(
+        go::Go(flags.size, go::Komi::from_points(flags.komi), go::rules_from_text(flags.rules)));
+    // The last search's owners, by which dead stones are known when both have passed.
+    std::vector<float> owners(static_cast<std::size_t>(flags.size * flags.size));
+    TerminalView view;
+    view.board = [&] { return go::diagram(session.now()); };
+    view.result = [&] {
+        if (session.now().no_result()) return std::string("no result, by repetition");
+        const Reading reading(session.now(), owners);
+        auto text = reading.score().text();
+        if (!reading.dead().empty())
+            text += fmt::format(" ({} dead stones)", reading.dead().size());
+        return text;
+    };
+    view.save = [&](const std::string& path) {
+        const bool over = session.now().consecutive_passes() >= 2;
+        save_sgf(session, over ? Reading(session.now(), owners).score().text() : "", path);
+    };
+    view.choose = [&](const search::Analysis& picture) {
+        owners = black_owners(picture, session.now());
+        const bool pass = should_pass(session.now(), Reading(session.now(), owners));
+        return pass ? std::string("pass") : session.move_to_text(picture.moves.front().move);
+    };
+    view.first_name = "Black (X)";
+    view.second_name = "White (O)";
+    view.move_example = go::vertex({flags.size / 2, flags.size / 2}) + " or pass";
+    Terminal(flags.terminal, session, view, std::cin, std::cout).run();
+    return 0;
+}
+
+// Ranks of a FEN or SFEN, a line each.
+std::string ranks_of(const std::string& position) {
+    std::string text;
+    for (const char c : position.substr(0, position.find(' '))) {
+        if (c == '/')
+            text += '\n';
+        else if (c >= '1' && c <= '9')
+            for (int i = 0; i < c - '0'; ++i) text += " .";
+        else if (c == '+')
+            text += '+';
+        else
+            text += text.ends_with('+') ? std::string(1, c) : fmt::format(" {}", c);
+    }
+    return text;
+}
+
+template <engine::Game G>
+int play_board_game(const PlayFlags& flags, TerminalView view) {
+    GameSession<G> session(flags.params);
+    view.board = [&] {
+        const auto text = session.position_text();
+        return fmt::format("{}\n{}", ranks_of(text), text);
+    };
+    view.result = [&]() -> std::string {
+        const auto outcome = session.outcome();
+        if (outcome == engine::Outcome::draw) return "a draw";
+        return fmt::format(
+            "{} wins", outcome == engine::Outcome::first_wins ? view.first_name : view.second_name);
+    };
+    view.save = [&](const std::string& path) {
+        const auto states = session.states();
+        std::string line = fmt::format("position {} {} moves", G::name == "chess" ? "fen" : "sfen",
+                                       states.front().to_text());
+        for (std::size_t i = 1; i < states.size(); ++i)
+            for (const engine::Move move : states[i - 1].legal_moves()) {
+                G next = states[i - 1];
+                next.play(move);
+                if (next.key() == states[i].key()) {
+                    line.append(" ").append(states[i - 1].move_to_text(move));
+                    break;
+                }
+            }
+        line += '\n';
+        engine::write_file(path, line);
+    };
+    Terminal(flags.terminal, session, view, std::cin, std::cout).run();
+    return 0;
+}
+
+TerminalView names(std::string first, std::string second, std::string example) {
+    TerminalView view;
+    view.first_name = std::move(first);
+    view.second_name = std::move(second);
+    view.move_example = std::move(example);
+    return view;
+}
+
+}  // namespace
+
+int run_play(Arguments arguments) {
+    CLI::App app("A game on a text board", "sanban play");
+    PlayFlags flags;
+    flags.params.threads = default_threads();
+    add_search_flags(app, flags.params);
+    app.add_option("--game", flags.game, "what to play")
+        ->check(CLI::IsMember({"go", "chess", "shogi"}))
+        ->capture_default_str();
+    app.add_option("--side", flags.colour, "yours: first or second")
+        ->check(CLI::IsMember({"first", "second"}))
+        ->capture_default_str();
+    app.add_option("--time", flags.terminal.seconds, "seconds a move")
+        ->check(CLI::Range(0.001, 1e6))
+        ->capture_default_str();
+    app.add_option("--simulations", flags.terminal.simulations, "a move, instead of a time");
+    app.add_option("--size", flags.size, "of the Go board")
+        ->check(CLI::Range(go::min_size, go::max_size))
+        ->capture_default_str();
+    app.add_option("--komi", flags.komi, "of Go")->capture_default_str();
+    app.add_option("--rules", flags.rules, "of Go, by name or as JSON")->capture_default_str();
+    if (const auto status = parse_flags(app, arguments)) return *status;
+    flags.terminal.human = flags.colour == "first" ? engine::Player::first : engine::Player::second;
+    if (flags.game == "go") return play_go(flags);
+    if (flags.game == "chess")
+        return play_board_game<chess::Chess>(flags, names("White", "Black", "e2e4"));
+    return play_board_game<shogi::Shogi>(flags, names("Black (sente)", "White (gote)", "7g7f"));
+}
+
+// On a terminal a game of Go; else the protocol that the first line is of.
+int run_bare(Arguments arguments) {
+    if (::isatty(STDIN_FILENO)) return run_play(arguments);
+    Line line;
+    do {
+        if (!read_line(std::cin, line)) return 0;
+    } while (line.text.empty() && !line.too_long);
+    const auto first = line.text.substr(0, line.text.find(' '));
+    if (first == "uci") return run_uci_from(arguments, line.text);
+    if (first == "usi") return run_usi_from(arguments, line.text);
+    return run_gtp_from(arguments, line.text);
+}
+
+}  // namespace protocols
