@@ -10,6 +10,7 @@
 #include "engine/go/bench.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "search/bench.h"
 
 namespace protocols {
 
@@ -29,7 +30,7 @@ Figures measure_rules(double seconds) {
     return all;
 }
 
-constexpr Group groups[] = {{"rules", measure_rules}};
+constexpr Group groups[] = {{"rules", measure_rules}, {"search", search::bench_search}};
 
 void print(const Figures& figures) {
     for (const auto& [name, value, unit] : figures) {
