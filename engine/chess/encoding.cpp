@@ -90,7 +90,8 @@ void write(const Chess& game, std::span<float> out, std::span<float> globals) {
             writer.skip(planes_per_board);
     }
     writer.full(mover == Player::second ? 1.0f : 0.0f);
-    writer.full(static_cast<float>(position.ply() / 2 + 1) / 100);
+    const int move_number = position.ply() / 2 + 1;
+    writer.full(static_cast<float>(move_number) / 100);
     for (const Player player : {mover, ~mover})
         for (const bool king_side : {true, false})
             writer.full(position.castling_rook(player, king_side) ? 1.0f : 0.0f);
