@@ -7,6 +7,7 @@
 
 #include "engine/base/files.h"
 #include "engine/base/option.h"
+#include "engine/base/text.h"
 #include "engine/games.h"
 #include "engine/perft.h"
 #include "protocols/commands.h"
@@ -22,13 +23,6 @@ struct Request {
     std::string file;
 };
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const auto begin = text.find_first_not_of(blanks);
-    if (begin == text.npos) return {};
-    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     for (;;) {
@@ -42,7 +36,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 template <engine::Game G>
 int count_by_move(const Request& request) {
     std::string text;
-    for (const auto& word : request.position) text += (text.empty() ? "" : " ") + word;
+    for (const auto& word : request.position) text += word + ' ';
+    text = engine::trimmed(text);
     const G game = text.empty() ? G() : G::from_text(text);
     std::uint64_t nodes = request.depth == 0 ? 1 : 0;
     if (request.depth > 0)
@@ -61,13 +56,13 @@ int count_by_move(const Request& request) {
 template <engine::Game G>
 bool passes(std::string_view line) {
     const auto parts = split(line, ';');
-    const G game = G::from_text(trimmed(parts[0]));
+    const G game = G::from_text(engine::trimmed(parts[0]));
     if (parts.size() < 2) engine::fail("no counts behind the position");
     bool right = true;
     for (std::size_t i = 1; i < parts.size(); ++i) {
-        const auto words = split(trimmed(parts[i]), ' ');
+        const auto words = split(engine::trimmed(parts[i]), ' ');
         if (words.size() != 2 || !words[0].starts_with('D'))
-            engine::fail("\"{}\" is not like \"D1 20\"", trimmed(parts[i]));
+            engine::fail("\"{}\" is not like \"D1 20\"", engine::trimmed(parts[i]));
         const auto depth = engine::parse_number<int>(words[0].substr(1));
         const auto expected = engine::parse_number<std::uint64_t>(words[1]);
         const auto nodes = engine::perft(game, depth);
@@ -84,7 +79,7 @@ int check_file(const std::string& path) {
     int number = 0, passed = 0, failed = 0;
     for (const auto line : split(text, '\n')) {
         ++number;
-        const auto content = trimmed(line);
+        const auto content = engine::trimmed(line);
         if (content.empty() || content.starts_with('#')) continue;
         try {
             ++(passes<G>(content) ? passed : failed);

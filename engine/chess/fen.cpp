@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace chess {
 
@@ -12,9 +13,8 @@ namespace {
 constexpr std::string_view letters = "PNBRQK";
 constexpr std::size_t longest = 200;
 
-bool is_upper(char letter) { return letter >= 'A' && letter <= 'Z'; }
 char upper(char letter) {
-    return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    return engine::is_lower(letter) ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 
 std::vector<std::string_view> fields_of(std::string_view text) {
@@ -31,8 +31,8 @@ std::vector<std::string_view> fields_of(std::string_view text) {
 
 Setup::Man man_from(char letter) {
     const auto piece = piece_from_letter(letter);
-    if (!piece) engine::fail("FEN: unknown piece \"{}\"", letter);
-    return {is_upper(letter) ? Player::first : Player::second, *piece};
+    if (!piece) engine::fail("FEN: unknown piece \"{}\"", engine::excerpt({&letter, 1}));
+    return {engine::is_upper(letter) ? Player::first : Player::second, *piece};
 }
 
 void read_board(std::string_view field, Setup& setup) {
@@ -72,18 +72,20 @@ Square outermost_rook(const Setup& setup, Player player, bool king_side) {
 }
 
 Square castling_rook_from(char letter, const Setup& setup) {
-    const Player player = is_upper(letter) ? Player::first : Player::second;
+    const Player player = engine::is_upper(letter) ? Player::first : Player::second;
     const int rank = player == Player::first ? 0 : 7;
     const char side = upper(letter);
     if (side == 'K' || side == 'Q') return outermost_rook(setup, player, side == 'K');
-    if (side < 'A' || side > 'H') engine::fail("FEN: bad castling letter \"{}\"", letter);
+    if (side < 'A' || side > 'H')
+        engine::fail("FEN: bad castling letter \"{}\"", engine::excerpt({&letter, 1}));
     const Square square = square_at(side - 'A', rank);
     return is_man(setup, square, player, Piece::rook) ? square : no_square;
 }
 
 void read_castling(std::string_view field, Setup& setup) {
     if (field == "-") return;
-    if (field.size() > 4) engine::fail("FEN: castling field \"{}\" is too long", field);
+    if (field.size() > 4)
+        engine::fail("FEN: castling field \"{}\" is too long", engine::excerpt(field));
     for (const char letter : field) {
         const Square rook = castling_rook_from(letter, setup);
         if (rook == no_square) engine::fail("FEN: castling \"{}\" without its rook", letter);
@@ -96,7 +98,7 @@ int counter_from(std::string_view field, std::string_view name, int most) {
     int value = -1;
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (status != std::errc{} || end != field.data() + field.size() || value < 0 || value > most)
-        engine::fail("FEN: {} \"{}\" is not a number in 0..{}", name, field, most);
+        engine::fail("FEN: {} \"{}\" is not a number in 0..{}", name, engine::excerpt(field), most);
     return value;
 }
 
@@ -147,17 +149,19 @@ std::string board_text(const Position& position) {
 Position position_from_fen(std::string_view text) {
     if (text.size() > longest) engine::fail("FEN: longer than {} characters", longest);
     const auto fields = fields_of(text);
-    if (fields.size() < 2) engine::fail("FEN: \"{}\" lacks the side to move", text);
-    if (fields.size() > 6) engine::fail("FEN: unexpected \"{}\" at the end", fields[6]);
+    if (fields.size() < 2)
+        engine::fail("FEN: \"{}\" lacks the side to move", engine::excerpt(text));
+    if (fields.size() > 6)
+        engine::fail("FEN: unexpected \"{}\" at the end", engine::excerpt(fields[6]));
     Setup setup;
     read_board(fields[0], setup);
     if (fields[1] != "w" && fields[1] != "b")
-        engine::fail("FEN: the side to move is \"{}\", not w or b", fields[1]);
+        engine::fail("FEN: the side to move is \"{}\", not w or b", engine::excerpt(fields[1]));
     setup.to_play = fields[1] == "w" ? Player::first : Player::second;
     if (fields.size() > 2) read_castling(fields[2], setup);
     if (fields.size() > 3 && fields[3] != "-") {
         const auto square = square_from_text(fields[3]);
-        if (!square) engine::fail("FEN: en passant square \"{}\"", fields[3]);
+        if (!square) engine::fail("FEN: en passant square \"{}\"", engine::excerpt(fields[3]));
         setup.en_passant = *square;
     }
     if (fields.size() > 4) setup.halfmove_clock = counter_from(fields[4], "halfmove clock", 9999);

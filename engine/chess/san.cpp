@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/chess/chess.h"
 #include "engine/chess/fen.h"
 
 namespace chess {
@@ -94,6 +95,7 @@ std::string_view without_annotations(std::string_view text) {
     while (!text.empty() && std::string_view("+#!?").find(text.back()) != text.npos)
         text.remove_suffix(1);
     drop_end(text, "e.p.");
+    drop_end(text, "e.p");
     drop_end(text, "ep");
     return text;
 }
@@ -166,6 +168,11 @@ std::optional<Move> move_from_san(const Position& position, std::string_view tex
         found = move;
     }
     return found;
+}
+
+std::optional<Move> move_from_san_or_uci(const Position& position, std::string_view text) {
+    const auto move = move_from_san(position, text);
+    return move ? move : Chess(position).move_from_text(text);
 }
 
 }  // namespace chess

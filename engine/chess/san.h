@@ -18,4 +18,7 @@ std::string san(const Position& position, Move move);
 // Ng1-f3), 0-0, e8Q, e8(Q), exd6e.p.
 std::optional<Move> move_from_san(const Position& position, std::string_view text);
 
+// The same, and moves as UCI writes them.
+std::optional<Move> move_from_san_or_uci(const Position& position, std::string_view text);
+
 }  // namespace chess
