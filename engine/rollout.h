@@ -16,6 +16,9 @@ struct RolloutResult {
     // A point's owner at the end, +1 first player, -1 second, 0 nobody, in the game's own order
     // of points; empty in games without territory. Valid until the next rollout.
     std::span<const std::int8_t> owners;
+    // Who made a move first in the rollout, by the move's code: +1 first player, -1 second, 0
+    // nobody; empty in games that keep no such account. Valid until the next rollout.
+    std::span<const std::int8_t> firsts = {};
 };
 
 template <Game G>
@@ -30,7 +33,7 @@ class UniformRollouts {
             game.play(legal[random.below(legal.size())]);
         }
         const auto outcome = game.outcome();
-        return {outcome == Outcome::ongoing ? Outcome::draw : outcome, 0, {}};
+        return {outcome == Outcome::ongoing ? Outcome::draw : outcome, 0, {}, {}};
     }
 
    private:

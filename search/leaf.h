@@ -21,10 +21,12 @@ template <engine::Game G>
 struct Leaf {
     G game;
     Path path;
-    bool expands = false;       // this descent claimed the leaf and must expand it
-    engine::MoveList moves;     // the legal ones, when it expands
-    std::vector<float> priors;  // one a move, summing to 1, or empty for equal ones
-    float value = 0;            // as the player to move sees it
+    std::vector<engine::Move> line;   // from the root
+    bool expands = false;             // this descent claimed the leaf and must expand it
+    engine::MoveList moves;           // the legal ones, when it expands
+    std::vector<float> priors;        // one a move, summing to 1, or empty for equal ones
+    std::vector<std::int8_t> firsts;  // of a rollout, by move code (engine::RolloutResult)
+    float value = 0;                  // as the player to move sees it
 };
 
 // Sums over rollouts of who owned each point at the end and by how much the first player led.
@@ -72,17 +74,18 @@ class RolloutLeaf final : public LeafEvaluator<G> {
         for (Leaf<G>& leaf : leaves) {
             if (leaf.expands) shuffle(leaf.moves);
             leaf.priors.clear();
-            leaf.value = roll_out(leaf.game);
+            roll_out(leaf);
         }
     }
     bool shares_leaves() const override { return true; }
     OwnerTally* tally() override { return &tally_; }
 
    private:
-    float roll_out(const G& game) {
-        const auto result = rollouts_.play(game, random_);
+    void roll_out(Leaf<G>& leaf) {
+        const auto result = rollouts_.play(leaf.game, random_);
         tally_.add(result);
-        return engine::value_for(game.to_play(), result.outcome);
+        leaf.firsts.assign(result.firsts.begin(), result.firsts.end());
+        leaf.value = engine::value_for(leaf.game.to_play(), result.outcome);
     }
 
     // Unvisited moves are tried in the order of the list, which must not favour a corner.

@@ -52,6 +52,40 @@ struct Ucb1 {
     };
 };
 
+// UCT-RAVE (Gelly & Silver 2007): UCB1 whose mean is mixed with that of all rollouts in which the
+// move was made at any later time. With n own and m such visits these weigh
+// m / (n + m + n m / equivalence): all at first, half when n is about `equivalence`.
+struct Rave {
+    Ucb1 ucb1;
+    float equivalence = 1000;
+
+    class AtNode {
+       public:
+        AtNode(const Rave& rule, const Node& parent)
+            : rule_(rule),
+              log_visits_(portable_log(
+                  static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
+                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))) {}
+
+        float score(const Edge& edge, const Node* child) const {
+            const auto m = static_cast<float>(edge.amaf.visits());
+            const std::uint32_t losses =
+                child ? child->in_flight.load(std::memory_order_relaxed) : 0;
+            const auto visits = child ? child->visits.load(std::memory_order_relaxed) : 0;
+            const auto n = static_cast<float>(visits + losses);
+            if (n + m == 0) return rule_.ucb1.unvisited;
+            const float share = m / (n + m + n * m / rule_.equivalence);
+            const float own = child ? child->mean(losses) : 0;
+            return own + share * (edge.amaf.mean() - own) +
+                   rule_.ucb1.exploration * std::sqrt(log_visits_ / (n + 1));
+        }
+
+       private:
+        const Rave& rule_;
+        float log_visits_;
+    };
+};
+
 // The best-scored edge of an expanded node among those that `allowed` is true of, the first of
 // equals; nullptr when there is none.
 template <class Rule, class Allowed>

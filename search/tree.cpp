@@ -13,9 +13,10 @@ namespace search {
 
 namespace {
 
-constexpr std::size_t node_units = sizeof(Node) / 8, edge_units = sizeof(Edge) / 8;
+constexpr std::size_t node_units = sizeof(Node) / 8;
+constexpr std::size_t edge_units(std::size_t edges) { return (edges * sizeof(Edge) + 7) / 8; }
 // Kept back in each half, so that a new root can always be copied.
-constexpr std::size_t root_reserve = 4 * (node_units + 640 * edge_units);
+constexpr std::size_t root_reserve = 4 * (node_units + edge_units(640));
 constexpr std::size_t least_budget = std::size_t{1} << 20, most_budget = std::size_t{32} << 30;
 
 constexpr std::uint32_t least_exponent = 96;  // 2^-31 in the bits of a float
@@ -54,6 +55,20 @@ float Node::mean(std::uint32_t losses) const {
     if (n == 0) return 0;
     const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed)) / value_unit;
     return static_cast<float>((sum - losses) / n);
+}
+
+void AmafCount::add(float value) {
+    const auto packed = packed_.load(relaxed);
+    auto visits = (packed >> 16) + 1;
+    auto wins = (packed & 0xffff) + static_cast<std::uint32_t>(value + 1.5f);
+    if (visits >= most_visits) visits /= 2, wins /= 2;
+    packed_.store(visits << 16 | wins, relaxed);
+}
+
+float AmafCount::mean() const {
+    const auto packed = packed_.load(relaxed);
+    if (packed == 0) return 0;
+    return static_cast<float>(packed & 0xffff) / static_cast<float>(packed >> 16) - 1;
 }
 
 Tree::Tree(std::size_t budget_bytes) {
@@ -106,7 +121,7 @@ bool Tree::claim(NodeId id) {
 bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const float> priors) {
     const auto count = static_cast<std::size_t>(moves.size());
     assert(priors.empty() || priors.size() == count);
-    const NodeId first = allocate(count * edge_units, root_reserve);
+    const NodeId first = allocate(edge_units(count), root_reserve);
     if (first == no_node) return unclaim(id), false;
     Node& parent = node(id);
     parent.first_edge = first;
@@ -132,6 +147,11 @@ void Tree::back_up(const Path& path, float value) {
         passed.visits.fetch_add(1, relaxed);
         passed.in_flight.fetch_sub(1, relaxed);
     }
+}
+
+void Tree::add_amaf(NodeId id, std::span<const std::int8_t> firsts, int mover, float value) {
+    for (Edge& edge : edge_span(node(id)))
+        if (edge.move.code < firsts.size() && firsts[edge.move.code] == mover) edge.amaf.add(value);
 }
 
 void Tree::withdraw(const Path& path) {
@@ -176,7 +196,7 @@ NodeId Tree::allocate(std::size_t units, std::size_t reserve) {
 NodeId Tree::copy(NodeId passive, std::size_t reserve) {
     const Node& from = node(passive);
     const auto old_edges = edge_span(from);
-    const NodeId id = allocate(node_units + old_edges.size() * edge_units, reserve);
+    const NodeId id = allocate(node_units + edge_units(old_edges.size()), reserve);
     if (id == no_node) return no_node;
     Node& to = *new (&node(id)) Node;
     copy_counts(from, to);
@@ -187,6 +207,7 @@ NodeId Tree::copy(NodeId passive, std::size_t reserve) {
         Edge& edge = *new (&new_edges[i]) Edge;
         edge.move = old_edges[i].move;
         edge.packed_prior = old_edges[i].packed_prior;
+        edge.amaf.copy(old_edges[i].amaf);
         edge.child.store(child(passive, old_edges[i]), std::memory_order_relaxed);
     }
     return id;

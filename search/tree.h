@@ -34,14 +34,31 @@ inline std::int64_t fixed_point(float value) {
 std::uint16_t pack_prior(float prior);
 float unpack_prior(std::uint16_t packed);
 
+// How rollouts ended in which a move was made at any time by the player whose turn it is here, and
+// not first by the other (all moves as first, AMAF). Halved when the count is full, so old rollouts
+// fade; of two threads that add at once one may be lost.
+class AmafCount {
+   public:
+    void add(float value);  // as the mover sees it
+    std::uint32_t visits() const { return packed_.load(std::memory_order_relaxed) >> 16; }
+    float mean() const;  // 0 without visits
+    void copy(const AmafCount& other) { packed_.store(other.packed_.load(), relaxed); }
+
+   private:
+    static constexpr auto relaxed = std::memory_order_relaxed;
+    static constexpr std::uint32_t most_visits = 30000;
+    std::atomic<std::uint32_t> packed_ = 0;  // visits above, twice the wins below
+};
+
 struct Edge {
     std::atomic<NodeId> child = no_node;
     engine::Move move;
     std::uint16_t packed_prior = 0;
+    AmafCount amaf;
 
     float prior() const { return unpack_prior(packed_prior); }
 };
-static_assert(sizeof(Edge) == 8);
+static_assert(sizeof(Edge) <= 12);
 
 enum class Stage : std::uint8_t { fresh, claimed, expanded };
 
@@ -98,6 +115,9 @@ class Tree {
 
     // Ends a descent: records `value`, as the player to move at the path's end sees it.
     void back_up(const Path& path, float value);
+    // Records in the edges of an expanded node what a rollout of `value`, as the mover sees it,
+    // says of moves made later: `firsts` by move code as engine::RolloutResult, `mover` as there.
+    void add_amaf(NodeId id, std::span<const std::int8_t> firsts, int mover, float value);
     // Ends a descent that came to nothing.
     void withdraw(const Path& path);
 

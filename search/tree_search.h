@@ -45,11 +45,11 @@ class MoveFilter {
 template <engine::Game G>
 class TreeSearch {
    public:
-    using Rule = std::variant<Ucb1>;
+    using Rule = std::variant<Ucb1, Rave>;
 
     explicit TreeSearch(const SearchParams& params)
         : params_(params),
-          rule_(Ucb1{params.exploration, params.unvisited}),
+          rule_(rule_of(params)),
           tree_(static_cast<std::size_t>(params.memory_mib) << 20) {}
 
     const Tree& tree() const { return tree_; }
@@ -70,7 +70,7 @@ class TreeSearch {
     // Keeps the tree where the memory budget stays what it was.
     void set_params(const SearchParams& params) {
         params_ = params;
-        rule_ = Ucb1{params.exploration, params.unvisited};
+        rule_ = rule_of(params);
     }
 
     void set_root(const G& root) {
@@ -88,6 +88,7 @@ class TreeSearch {
     Gathered gather(Leaf<G>& leaf, bool share) {
         leaf.game = root_;
         leaf.path.assign(1, tree_.root());
+        leaf.line.clear();
         leaf.expands = false;
         tree_.enter_root();
         const bool arrived =
@@ -100,8 +101,9 @@ class TreeSearch {
     }
 
     // False when the tree is full: the value counts, but the leaf stays a leaf.
-    bool absorb(const Leaf<G>& leaf) {
+    bool absorb(Leaf<G>& leaf) {
         const bool fits = !leaf.expands || tree_.expand(leaf.path.back(), leaf.moves, leaf.priors);
+        if (std::holds_alternative<Rave>(rule_)) spread_amaf(leaf);
         tree_.back_up(leaf.path, leaf.value);
         return fits;
     }
@@ -113,6 +115,28 @@ class TreeSearch {
     }
 
    private:
+    static Rule rule_of(const SearchParams& params) {
+        if (params.rave > 0) return Rave{{params.rave_exploration, params.unvisited}, params.rave};
+        return Ucb1{params.exploration, params.unvisited};
+    }
+
+    // From the leaf up, so that a move of the descent counts before any later one on its point.
+    void spread_amaf(Leaf<G>& leaf) {
+        const bool first = leaf.game.to_play() == engine::Player::first;
+        float value = leaf.value;
+        int mover = first ? 1 : -1;
+        for (auto i = leaf.line.size() + 1; i-- > 0;) {
+            if (i < leaf.line.size()) {
+                value = -value;
+                mover = -mover;
+                const auto code = leaf.line[i].code;
+                if (code < leaf.firsts.size()) leaf.firsts[code] = static_cast<std::int8_t>(mover);
+            }
+            if (tree_[leaf.path[i]].expanded())
+                tree_.add_amaf(leaf.path[i], leaf.firsts, mover, value);
+        }
+    }
+
     template <class SelectionRule>
     bool descend(Leaf<G>& leaf, const SelectionRule& rule) {
         NodeId node = tree_.root();
@@ -124,6 +148,7 @@ class TreeSearch {
             const NodeId child = tree_.enter(*edge);
             if (child == no_node) return false;
             leaf.game.play(edge->move);
+            leaf.line.push_back(edge->move);
             leaf.path.push_back(node = child);
         }
         return true;

@@ -28,6 +28,8 @@ class RolloutBoard {
 
     // Whose the point is when all that is left are one-point eyes: +1 Black's, -1 White's, 0.
     std::int8_t owner(int x, int y) const;
+    // Who first played there since the start of the rollout: likewise.
+    std::int8_t first(int x, int y) const { return cell((y + 1) * stride + x + 1).first; }
 
    private:
     static constexpr int stride = most_size + 1;
@@ -46,6 +48,7 @@ class RolloutBoard {
         std::uint16_t chain_size = 0;  // at heads
         Colour colour = Colour::edge;
         std::uint8_t at_edge = 0;
+        std::int8_t first = 0;  // who first played here
     };
 
     static constexpr int side_of(Colour colour) {
@@ -214,6 +217,7 @@ void RolloutBoard<most_size>::play(int at) {
     const bool in_enemy_eye = count(stone.sides, enemy) == 4;
     unlist_empty(at);
     stone.colour = colour;
+    if (stone.first == 0) stone.first = colour == Colour::black ? 1 : -1;
     stone.chain = stone.next = word(at);
     stone.chain_size = 1;
     stone.liberties = static_cast<std::int16_t>(stone.sides >> 8);

@@ -36,7 +36,10 @@ int Rollouts::play_on(const Go& from, engine::Random& random) {
     int lead = 0;
     std::size_t next = 0;
     for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) lead += owners_[next++] = board.owner(x, y);
+        for (int x = 0; x < size; ++x) {
+            firsts_[static_cast<std::size_t>(from.board().index(x, y))] = board.first(x, y);
+            lead += owners_[next++] = board.owner(x, y);
+        }
     return lead;
 }
 
@@ -55,7 +58,9 @@ engine::RolloutResult Rollouts::play(const Go& from, engine::Random& random) {
     const int points = from.size() * from.size();
     return {outcome,
             static_cast<float>(halves) / 2,
-            {owners_.data(), static_cast<std::size_t>(points)}};
+            {owners_.data(), static_cast<std::size_t>(points)},
+            {firsts_.data(),
+             static_cast<std::size_t>(from.board().index(from.size() - 1, from.size() - 1)) + 1}};
 }
 
 engine::RolloutResult Rollouts::finished(const Go& game) {
@@ -64,9 +69,11 @@ engine::RolloutResult Rollouts::finished(const Go& game) {
         const auto owner = result.owners[i];
         owners_[i] = static_cast<std::int8_t>(!owner ? 0 : *owner == Player::first ? 1 : -1);
     }
-    return {game.outcome(),
-            static_cast<float>(result.lead_halves) / 2,
-            {owners_.data(), result.owners.size()}};
+    return {
+        game.outcome(),
+        static_cast<float>(result.lead_halves) / 2,
+        {owners_.data(), result.owners.size()},
+    };
 }
 
 }  // namespace go

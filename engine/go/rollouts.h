@@ -23,6 +23,7 @@ class Rollouts {
     engine::RolloutResult finished(const Go& game);
 
     std::array<std::int8_t, most_points> owners_;
+    std::array<std::int8_t, (max_size + 1) * (max_size + 1)> firsts_{};  // by index, edges 0
 };
 
 }  // namespace go

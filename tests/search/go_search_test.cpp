@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -42,6 +44,37 @@ TEST(GoSearch, KnowsWhoOwnsWhat) {
     EXPECT_GT(picture.owners[2 * 5 + 2], 0.9f);  // C3, the mover's own
     EXPECT_GT(picture.owners[2 * 5 + 0], 0.5f);  // A3, behind it
     EXPECT_GT(picture.lead, -7.5f);
+}
+
+// Plays a game of 200 simulations a move on 7x7 with a komi that favours neither.
+engine::Outcome duel(float black_rave, float white_rave, int seed) {
+    const auto player = [&](float rave) {
+        auto params = small(1);
+        params.rave = rave;
+        params.seed = seed;
+        return std::make_unique<Searcher<Go>>(params);
+    };
+    const std::array players = {player(black_rave), player(white_rave)};
+    Go game(7, go::Komi::from_points(8.5));
+    for (const auto& searcher : players) searcher->set_position(game);
+    Limits limits;
+    limits.simulations = 200;
+    while (game.outcome() == engine::Outcome::ongoing && game.move_count() < 150) {
+        const auto mover = game.to_play() == engine::Player::first ? 0u : 1u;
+        const auto move = players[mover]->think(limits).moves.at(0).move;
+        game.play(move);
+        for (const auto& searcher : players) searcher->advance(move);
+    }
+    return game.outcome();
+}
+
+TEST(GoSearch, RaveBeatsPlainUctAtTheSameSimulations) {
+    int wins = 0;
+    for (int seed = 1; seed <= 4; ++seed) {
+        wins += duel(1000, 0, seed) == engine::Outcome::first_wins ? 1 : 0;
+        wins += duel(0, 1000, seed) == engine::Outcome::second_wins ? 1 : 0;
+    }
+    EXPECT_GE(wins, 7);
 }
 
 // A budget of which the tree needs many times as much: search goes on, within it.

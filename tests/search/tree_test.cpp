@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "engine/base/random.h"
 
@@ -121,6 +122,29 @@ TEST(Tree, AllThreadsEnterTheSameChild) {
         for (const NodeId id : entered) EXPECT_EQ(id, entered[0]);
         EXPECT_EQ(tree[entered[0]].in_flight, 4u);
     }
+}
+
+TEST(Tree, AmafCountsTheMoversMovesOnly) {
+    Tree tree(mebibyte);
+    expand_root(tree, 3);
+    const std::vector<std::int8_t> firsts = {1, -1, 0};
+    tree.add_amaf(tree.root(), firsts, 1, 1);
+    tree.add_amaf(tree.root(), firsts, 1, -1);
+    tree.add_amaf(tree.root(), firsts, 1, 0);
+    tree.add_amaf(tree.root(), firsts, 1, 1);
+    const auto edges = tree.edges(tree.root());
+    EXPECT_EQ(edges[0].amaf.visits(), 4u);
+    EXPECT_EQ(edges[0].amaf.mean(), 0.25f);
+    EXPECT_EQ(edges[1].amaf.visits(), 0u);
+    EXPECT_EQ(edges[2].amaf.visits(), 0u);
+}
+
+TEST(Tree, AmafKeepsItsMeanWhenItsCountIsFull) {
+    AmafCount count;
+    for (int i = 0; i < 200000; ++i) count.add(i % 4 == 0 ? -1.0f : 1.0f);
+    EXPECT_GT(count.visits(), 10000u);
+    EXPECT_NEAR(count.mean(), 0.5f, 0.01f);
+    EXPECT_EQ(AmafCount{}.mean(), 0.0f);
 }
 
 TEST(Tree, AFlipKeepsTheRootAndWhatIsEnteredAfterIt) {
