@@ -16,7 +16,8 @@ constexpr float dead_below = -0.4f, alive_above = 0.4f;
 constexpr float decided = 0.9f;
 
 std::size_t index_of(const go::Go& game, Point point) {
-    return static_cast<std::size_t>(point.y * game.size() + point.x);
+    const int index = point.y * game.size() + point.x;
+    return static_cast<std::size_t>(index);
 }
 
 Point point_at(const go::Go& game, std::size_t index) {
@@ -96,12 +97,25 @@ std::vector<Point> Reading::stones(go::Status wanted) const {
     return found;
 }
 
+std::vector<Point> liberties_of(const go::Go& game, const std::vector<Point>& stones,
+                                Player owner) {
+    std::vector<Point> found;
+    for (const Point stone : stones) {
+        if (game.at(stone) != owner) continue;
+        for (const Point n : neighbours(game, stone))
+            if (!game.at(n) && std::find(found.begin(), found.end(), n) == found.end())
+                found.push_back(n);
+    }
+    return found;
+}
+
 bool should_pass(const go::Go& game, const Reading& reading) {
     const auto won = [&](const go::Score& score) {
         return engine::value_for(game.to_play(), score.outcome()) > 0;
     };
-    // The opponent gives the last word to us: take it when the board wins as it stands.
-    if (game.consecutive_passes() > 0 && won(go::score(game))) return true;
+    // The opponent gives the last word to us: take it when the board wins as it stands, whoever
+    // counts it.
+    if (game.consecutive_passes() > 0 && won(go::score(game)) && won(reading.score())) return true;
     // Both are needed: what other referees count who know nothing of dead stones is their affair,
     // but a settled board that we lose is no reason to fill it up.
     if (!reading.settled()) return false;

@@ -40,6 +40,10 @@ class Reading {
 // Whether the rules ask for agreement on dead stones after two passes.
 bool agrees_on_dead_stones(const go::Rules& rules);
 
+// Empty points beside those of `stones` that are `owner`'s, each once.
+std::vector<go::Point> liberties_of(const go::Go& game, const std::vector<go::Point>& stones,
+                                    engine::Player owner);
+
 // Whether the mover should pass: the game is decided, passing keeps what it has, and (where the
 // board is scored as it stands) nothing dead is left to be counted as alive.
 bool should_pass(const go::Go& game, const Reading& reading);

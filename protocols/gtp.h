@@ -175,6 +175,8 @@ class Gtp {
     std::string gogui_visits(Words&);
     std::string gogui_variation(Words&);
 
+    static const Command table_[];
+
     const go::Go& now() const { return session_.now(); }
     const Command* find(std::string_view name) const;
     void run(const Command& command, std::string_view arguments);
@@ -197,11 +199,22 @@ class Gtp {
     std::string search_analyze(Words& words, bool cancellable);
     std::string analyze(Words& words, bool kata, bool floats);
     AnalysisRequest parse_analysis(Words& words, bool kata, bool floats) const;
+    void parse_key(std::string_view key, Words& words, AnalysisRequest& request) const;
+    static void parse_switch(std::string_view key, std::string_view value,
+                             AnalysisRequest& request);
     void parse_restriction(Words& words, bool allow, AnalysisRequest& request) const;
     void print_analysis(const search::Analysis& picture, const AnalysisRequest& request);
+    std::string move_info(const search::MoveAnalysis& move, int order,
+                          const AnalysisRequest& request) const;
     const Reading& reading();
-    std::vector<float> black_owners(const search::Analysis& picture) const;
-    void remember(const search::Analysis& picture);
+    void read_by_rollouts();
+    void remember(const search::Analysis& picture, engine::Player player, bool restricted);
+    void remember_owners(const search::Analysis& picture, engine::Player player);
+    bool knows_owners() const;
+    bool may_read(engine::Player player) const;
+    std::vector<go::Move> moves_against_dead(engine::Player player);
+    void forget();
+    search::Limits limits_of(const AnalysisRequest& request) const;
     void ponder();
 
     GtpSettings settings_;
@@ -212,16 +225,19 @@ class Gtp {
     bool answered_ = false;
     bool quitting_ = false;
     GtpClock clock_;
-    int hopeless_moves_ = 0;
-    std::string result_;  // of a game that ended by resignation
+    std::array<int, 2> hopeless_moves_{};  // in a row, of each side
+    std::string result_;                   // of a game that ended by resignation
 
     std::atomic<Thinking> thinking_ = Thinking::no;
     std::atomic<bool> cut_ = false;
+    bool restricted_ = false;  // the running analysis looks at some moves only
     search::Analysis last_picture_;
+    engine::Player last_player_ = engine::Player::first;  // who was to move in it
 
-    // The last reading and the position it is of.
+    // Expected owners of the stones of `read_`, and what they say about the present game.
+    std::vector<float> owners_;
+    go::Stones read_{};
     std::optional<Reading> reading_;
-    std::optional<go::Go> read_;
 };
 
 }  // namespace protocols

@@ -14,6 +14,12 @@ using engine::Player;
 
 char letter(Player player) { return player == Player::first ? 'B' : 'W'; }
 
+// `word` is in lower case.
+bool same_word(std::string_view text, std::string_view word) {
+    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                      [](char a, char b) { return (a | 32) == b; });
+}
+
 // A board like `game`'s without stones.
 go::Go emptied(const go::Go& game, int size) { return go::Go(size, game.komi(), game.rules()); }
 
@@ -23,8 +29,9 @@ void Gtp::restart(const go::Go& start) {
     session_.restart(start);
     turns_.clear();
     clock_.restart();
-    hopeless_moves_ = 0;
+    hopeless_moves_.fill(0);
     result_.clear();
+    forget();
 }
 
 void Gtp::play(Player player, go::Move move) {
@@ -46,8 +53,8 @@ go::Point Gtp::vertex_of(std::string_view text) const {
 }
 
 void Gtp::play_checked(Player player, std::string_view vertex) {
-    const bool passes = vertex.size() == 4 && (vertex[0] | 32) == 'p' && (vertex[1] | 32) == 'a';
-    if (vertex == "resign") {
+    const bool passes = same_word(vertex, "pass");
+    if (same_word(vertex, "resign")) {
         result_ = fmt::format("{}+R", letter(~player));
         return;
     }
@@ -108,18 +115,16 @@ std::string Gtp::play(Words& words) {
 }
 
 std::string Gtp::play_sequence(Words& words) {
-    int played = 0;
+    const auto before = turns_.size();
+    const auto result = result_;
     try {
         while (!words.empty()) {
             const auto player = words.colour();
             play_checked(player, words.take("the vertex"));
-            ++played;
         }
     } catch (const engine::Error&) {
-        for (; played > 0; --played) {
-            session_.undo();
-            turns_.pop_back();
-        }
+        for (; turns_.size() > before; turns_.pop_back()) session_.undo();
+        result_ = result;
         throw;
     }
     return "";

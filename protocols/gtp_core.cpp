@@ -25,6 +25,12 @@ T within(std::string_view name, std::string_view text, T least, T most) {
     return value;
 }
 
+bool truth(std::string_view name, std::string_view text) {
+    if (text == "true" || text == "1") return true;
+    if (text == "false" || text == "0") return false;
+    engine::fail("{} must be true or false, not {}", name, text);
+}
+
 constexpr std::uint64_t most_visits = 1'000'000'000'000;
 
 constexpr Parameter parameters[] = {
@@ -43,7 +49,7 @@ constexpr Parameter parameters[] = {
      }},
     {"ponderingEnabled", "Pondering",
      [](const GtpSettings& s) { return std::string(s.ponder ? "true" : "false"); },
-     [](GtpSettings& s, std::string_view text) { s.ponder = text == "true" || text == "1"; }},
+     [](GtpSettings& s, std::string_view text) { s.ponder = truth("ponderingEnabled", text); }},
     {"resignThreshold", "",
      [](const GtpSettings& s) { return fmt::format("{:g}", 2 * s.resign_below - 1); },
      [](GtpSettings& s, std::string_view text) {
@@ -110,8 +116,7 @@ std::string Gtp::quit(Words&) {
 
 std::string Gtp::clear_cache(Words&) {
     session_.new_game();
-    reading_.reset();
-    last_picture_ = {};
+    forget();
     return "";
 }
 
@@ -134,6 +139,9 @@ std::string Gtp::set_random_seed(Words& words) {
     auto params = session_.params();
     engine::set_option(params, "seed", words.take("the seed"));
     session_.set_params(params);
+    // The same seed again starts the same random numbers again.
+    session_.new_game();
+    forget();
     return "";
 }
 

@@ -16,14 +16,14 @@ std::string Gtp::gogui_commands(Words&) {
 
 std::string Gtp::gogui_ownership(Words&) {
     if (last_picture_.owners.empty()) engine::fail("nothing has been searched yet");
-    const auto owners = black_owners(last_picture_);
+    const float sign = last_player_ == engine::Player::first ? 1.0f : -1.0f;
+    const auto& owners = last_picture_.owners;
     const auto size = static_cast<std::size_t>(now().size());
-    if (owners.size() != size * size) engine::fail("the last search was of another board");
     std::string text = "INFLUENCE";
     for (std::size_t i = 0; i < owners.size(); ++i)
         text += fmt::format(" {} {:.2f}",
                             go::vertex({static_cast<int>(i % size), static_cast<int>(i / size)}),
-                            owners[i]);
+                            sign * owners[i]);
     return text;
 }
 
@@ -39,7 +39,7 @@ std::string Gtp::gogui_visits(Words&) {
 std::string Gtp::gogui_variation(Words&) {
     if (last_picture_.moves.empty()) engine::fail("nothing has been searched yet");
     std::string text = "VAR";
-    auto player = session_.searcher().position().to_play();
+    auto player = last_player_;
     for (const auto move : last_picture_.moves.front().variation) {
         text += fmt::format(" {} {}", player == engine::Player::first ? 'b' : 'w',
                             now().move_to_text(move));

@@ -1,4 +1,4 @@
-// GTP commands that think: moves, analysis, scores.
+// GTP commands that think: moves, analyses, scores.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,19 +16,18 @@ using search::Milliseconds;
 
 // A reading by rollouts alone, when no search has looked at the position.
 constexpr std::uint64_t reading_simulations = 2000;
+// A search of so many says enough about the owners of the points.
+constexpr std::uint64_t enough_simulations = 200;
+constexpr Milliseconds time_to_read{3000};
 // Moves in a row below the threshold before the engine resigns, and visits that make one count.
 constexpr int hopeless_enough = 3;
 constexpr std::uint64_t visits_to_resign = 1000;
 
-double winrate(float value) { return (value + 1) / 2; }
-int per_ten_thousand(float value) { return static_cast<int>(std::lround(10000 * winrate(value))); }
-
-std::string variation_text(const go::Go& game, const std::vector<go::Move>& moves) {
-    std::string text;
-    for (const auto move : moves) text.append(text.empty() ? "" : " ") += game.move_to_text(move);
-    return text;
+bool is_restricted(const search::Limits& limits) {
+    return !limits.only.empty() || !limits.avoid.empty();
 }
 
+double winrate(float value) { return (value + 1) / 2; }
 }  // namespace
 
 search::Limits Gtp::move_limits(Player player) const {
@@ -56,28 +55,39 @@ Analysis Gtp::think(const AnalysisRequest& request, Thinking purpose) {
     thinking_ = Thinking::no;
     auto picture = session_.searcher().analysis();
     if (!picture.fault.empty()) engine::fail("the search broke off: {}", picture.fault);
-    remember(picture);
+    remember(picture, request.player, is_restricted(request.limits));
     return picture;
 }
 
-void Gtp::remember(const Analysis& picture) {
+void Gtp::remember(const Analysis& picture, Player player, bool restricted) {
     last_picture_ = picture;
-    if (picture.owners.empty() || picture.simulations < reading_simulations / 2) return;
-    // The position searched may be the present one with the other side to move; the stones, which
-    // a reading is about, are the same.
-    reading_.emplace(now(), black_owners(picture));
-    read_ = now();
+    last_player_ = player;
+    if (!restricted && !picture.owners.empty() && picture.simulations >= enough_simulations)
+        remember_owners(picture, player);
 }
 
-std::vector<float> Gtp::black_owners(const Analysis& picture) const {
-    auto owners = picture.owners;
-    if (session_.searcher().position().to_play() == Player::second)
-        for (float& owner : owners) owner = -owner;
-    return owners;
+// Owners are about the stones: a pass, another mover or other rules leave them true.
+void Gtp::remember_owners(const Analysis& picture, Player player) {
+    owners_ = picture.owners;
+    owners_.resize(static_cast<std::size_t>(now().size() * now().size()));
+    if (player == Player::second)
+        for (float& owner : owners_) owner = -owner;
+    read_ = now().board().stones();
+}
+
+bool Gtp::knows_owners() const { return !owners_.empty() && read_ == now().board().stones(); }
+
+void Gtp::forget() {
+    last_picture_ = {};
+    owners_.clear();
 }
 
 const Reading& Gtp::reading() {
-    if (read_ && reading_ && *read_ == now()) return *reading_;
+    if (!knows_owners()) read_by_rollouts();
+    return reading_.emplace(now(), owners_);
+}
+
+void Gtp::read_by_rollouts() {
     search::Limits limits;
     limits.simulations = reading_simulations;
     // A finished game has nothing to search: read the position before the passes.
@@ -87,13 +97,24 @@ const Reading& Gtp::reading() {
             if (const auto stone = now().at({x, y})) game.set_up({x, y}, stone);
     game.set_to_play(now().to_play());
     session_.searcher().set_position(game);
-    const auto picture = session_.searcher().think(limits);
-    reading_.emplace(now(),
-                     picture.owners.empty()
-                         ? std::vector<float>(static_cast<std::size_t>(now().size() * now().size()))
-                         : black_owners(picture));
-    read_ = now();
-    return *reading_;
+    remember_owners(session_.searcher().think(limits), game.to_play());
+}
+
+// A running clock may leave no time for a reading beside the search.
+bool Gtp::may_read(Player player) const {
+    const auto& left = clock_.left(player);
+    return knows_owners() || left.control.unlimited || left.longest_move() > time_to_read;
+}
+
+// The liberties of the opponent's dead stones that `player` may play on.
+std::vector<go::Move> Gtp::moves_against_dead(Player player) {
+    std::vector<go::Move> moves;
+    if (!may_read(player)) return moves;
+    go::Go game = now();
+    game.set_to_play(player);
+    for (const auto& point : liberties_of(game, reading().stones(go::Status::dead), ~player))
+        if (const auto move = game.move_at(point); game.legal(move)) moves.push_back(move);
+    return moves;
 }
 
 // The vertex to answer: the search's best move, a pass when nothing is left to gain, or `resign`.
@@ -104,11 +125,13 @@ std::string Gtp::choose(const Analysis& picture, Player player, bool clean_up) {
     const auto& best = picture.moves.front();
     const bool hopeless = winrate(best.value) < settings_.resign_below &&
                           picture.visits >= visits_to_resign && !clean_up;
-    hopeless_moves_ = hopeless ? hopeless_moves_ + 1 : 0;
-    if (hopeless_moves_ >= hopeless_enough) return "resign";
-    const Reading& read = reading();
-    const bool dead_left = !read.stones(go::Status::dead).empty();
-    if (should_pass(game, read) && !(clean_up && dead_left)) return "pass";
+    int& hopeless_moves = hopeless_moves_[static_cast<std::size_t>(player)];
+    hopeless_moves = hopeless ? hopeless_moves + 1 : 0;
+    if (hopeless_moves >= hopeless_enough) return "resign";
+    const bool may_pass =
+        std::any_of(picture.moves.begin(), picture.moves.end(),
+                    [](const search::MoveAnalysis& move) { return move.move == go::Go::pass; });
+    if (may_pass && may_read(player) && should_pass(game, reading())) return "pass";
     return game.move_to_text(best.move);
 }
 
@@ -116,12 +139,14 @@ std::string Gtp::move_now(Player player, bool play_it, bool clean_up) {
     AnalysisRequest request;
     request.player = player;
     request.limits = move_limits(player);
+    if (clean_up) request.limits.only = moves_against_dead(player);
     const auto start = std::chrono::steady_clock::now();
     const auto picture = think(request, Thinking::to_move);
-    const auto text = choose(picture, player, clean_up);
+    auto text = choose(picture, player, clean_up);
+    if (!play_it) return text;
     clock_.spend(
         player, std::chrono::duration_cast<Milliseconds>(std::chrono::steady_clock::now() - start));
-    if (play_it) play_checked(player, text);
+    play_checked(player, text);
     return text;
 }
 
@@ -135,108 +160,13 @@ void Gtp::ponder() {
     session_.searcher().start({}, {}, {});
 }
 
-// The grammar of lz-analyze and kata-analyze: [COLOUR] [CENTISECONDS] {KEY VALUE}.
-Gtp::AnalysisRequest Gtp::parse_analysis(Words& words, bool kata, bool floats) const {
-    AnalysisRequest request;
-    request.kata = kata;
-    request.floats = floats;
-    request.player = now().to_play();
-    request.limits.report_every = Milliseconds(1000);
-    const auto interval = [&] {
-        const double centiseconds = words.number("the interval", 0, 1e7);
-        request.limits.report_every =
-            Milliseconds(std::max<std::int64_t>(std::llround(10 * centiseconds), 10));
-    };
-    const auto is_colour = [&] {
-        const char c = static_cast<char>(words.peek()[0] | 32);
-        const auto size = words.peek().size();
-        return (c == 'b' || c == 'w') && (size == 1 || size == 5);
-    };
-    if (!words.empty() && is_colour()) request.player = words.colour();
-    if (!words.empty() && words.peek().find_first_not_of("0123456789.") == std::string::npos)
-        interval();
-    while (!words.empty()) {
-        const std::string key(words.take("the key"));
-        if (key == "interval") {
-            interval();
-        } else if (key == "minmoves") {
-            request.least_moves = words.whole("minmoves", 0, 1000);
-        } else if (key == "maxmoves") {
-            request.most_moves = words.whole("maxmoves", 1, 1000);
-        } else if (key == "avoid" || key == "allow") {
-            parse_restriction(words, key == "allow", request);
-        } else {
-            const bool yes = words.take("true or false") == "true";
-            if (key == "rootInfo") request.root_info = yes;
-            if (key == "ownership") request.ownership = yes;
-            if (key == "pvVisits") request.visits_of_variation = yes;
-        }
-    }
-    return request;
-}
-
-// avoid COLOUR V,V,... DEPTH: a ban on the first move of the side to move; deeper plies are free.
-void Gtp::parse_restriction(Words& words, bool allow, AnalysisRequest& request) const {
-    const auto player = words.colour();
-    const std::string list(words.take("the vertices"));
-    words.whole("the depth", 1, 1000);
-    if (player != request.player) return;
-    go::Go game = now();
-    game.set_to_play(player);
-    std::size_t start = 0;
-    while (start <= list.size()) {
-        const auto end = std::min(list.find(',', start), list.size());
-        const auto text = list.substr(start, end - start);
-        const auto move = game.move_from_text(text);
-        if (!move && text != "pass") vertex_of(text);
-        if (move) (allow ? request.limits.only : request.limits.avoid).push_back(*move);
-        start = end + 1;
-    }
-}
-
-void Gtp::print_analysis(const Analysis& picture, const AnalysisRequest& request) {
-    if (picture.moves.empty()) return;
-    std::string line;
-    int order = 0;
-    for (const auto& move : picture.moves) {
-        if (order >= request.most_moves) break;
-        if (move.visits == 0 && order >= std::max(request.least_moves, 1)) break;
-        line += fmt::format("{}info move {} visits {} ", line.empty() ? "" : " ",
-                            now().move_to_text(move.move), move.visits);
-        if (request.floats)
-            line += fmt::format("winrate {:.6f} prior {:.6f} lcb {:.6f}", winrate(move.value),
-                                move.prior, winrate(move.lcb));
-        else
-            line += fmt::format("winrate {} prior {} lcb {}", per_ten_thousand(move.value),
-                                std::lround(10000 * move.prior), per_ten_thousand(move.lcb));
-        if (request.kata)
-            line += fmt::format(" utility {:.6f} utilityLcb {:.6f}", move.value, move.lcb);
-        line += fmt::format(" order {}", order++);
-        if (request.visits_of_variation) {
-            line += " pvVisits";
-            for (const auto visits : move.variation_visits) line += fmt::format(" {}", visits);
-        }
-        line += fmt::format(" pv {}", variation_text(now(), move.variation));
-    }
-    if (request.root_info)
-        line += fmt::format(" rootInfo visits {} utility {:.6f} winrate {:.6f} scoreLead {:.3f}",
-                            picture.visits, picture.value, winrate(picture.value), picture.lead);
-    if (request.ownership && !picture.owners.empty()) {
-        line += " ownership";
-        const auto size = static_cast<std::size_t>(now().size());
-        for (std::size_t y = size; y-- > 0;)
-            for (std::size_t x = 0; x < size; ++x)
-                line += fmt::format(" {:.3f}", picture.owners[y * size + x]);
-    }
-    out_.line(line);
-}
-
 std::string Gtp::analyze(Words& words, bool kata, bool floats) {
     const auto request = parse_analysis(words, kata, floats);
     go::Go game = now();
     game.set_to_play(request.player);
     answered_ = true;
     out_.line(fmt::format("={}", id_));
+    restricted_ = is_restricted(request.limits);
     thinking_ = Thinking::analysing;
     session_.searcher().set_position(game);
     session_.searcher().start(
@@ -249,14 +179,18 @@ std::string Gtp::lz_analyze(Words& words) { return analyze(words, false, false);
 std::string Gtp::kata_analyze(Words& words) { return analyze(words, true, true); }
 std::string Gtp::any_analyze(Words& words) { return analyze(words, false, true); }
 
+// A move's own limits, with the reports and restrictions asked for.
+search::Limits Gtp::limits_of(const AnalysisRequest& request) const {
+    auto limits = move_limits(request.player);
+    limits.report_every = request.limits.report_every;
+    limits.only = request.limits.only;
+    limits.avoid = request.limits.avoid;
+    return limits;
+}
+
 std::string Gtp::genmove_analyze(Words& words, bool kata, bool floats) {
     auto request = parse_analysis(words, kata, floats);
-    const auto report_every = request.limits.report_every;
-    const auto only = request.limits.only, avoid = request.limits.avoid;
-    request.limits = move_limits(request.player);
-    request.limits.report_every = report_every;
-    request.limits.only = only;
-    request.limits.avoid = avoid;
+    request.limits = limits_of(request);
     answered_ = true;
     out_.line(fmt::format("={}", id_));
     const auto start = std::chrono::steady_clock::now();
@@ -276,9 +210,7 @@ std::string Gtp::any_genmove_analyze(Words& words) { return genmove_analyze(word
 
 std::string Gtp::search_analyze(Words& words, bool cancellable) {
     auto request = parse_analysis(words, true, true);
-    const auto report_every = request.limits.report_every;
-    request.limits = move_limits(request.player);
-    request.limits.report_every = report_every;
+    request.limits = limits_of(request);
     answered_ = true;
     out_.line(fmt::format("={}", id_));
     const auto picture = think(request, cancellable ? Thinking::cancellable : Thinking::to_move);

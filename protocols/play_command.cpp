@@ -32,7 +32,8 @@ struct PlayFlags {
 
 std::vector<float> black_owners(const search::Analysis& picture, const go::Go& game) {
     auto owners = picture.owners;
-    owners.resize(static_cast<std::size_t>(game.size() * game.size()));
+    const auto size = static_cast<std::size_t>(game.size());
+    owners.resize(size * size);
     if (game.to_play() == engine::Player::second)
         for (float& owner : owners) owner = -owner;
     return owners;
