@@ -69,7 +69,8 @@ void Gtp::remember(const Analysis& picture, Player player, bool restricted) {
 // Owners are about the stones: a pass, another mover or other rules leave them true.
 void Gtp::remember_owners(const Analysis& picture, Player player) {
     owners_ = picture.owners;
-    owners_.resize(static_cast<std::size_t>(now().size() * now().size()));
+    const auto size = static_cast<std::size_t>(now().size());
+    owners_.resize(size * size);
     if (player == Player::second)
         for (float& owner : owners_) owner = -owner;
     read_ = now().board().stones();
