@@ -35,7 +35,7 @@ class StopOnSignal {
         ::sigaddset(&signals_, SIGINT);
         ::sigaddset(&signals_, SIGTERM);
         ::pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-        thread_ = std::jthread([this](std::stop_token over) { watch(over); });
+        thread_ = std::jthread([this](const std::stop_token& over) { watch(over); });
     }
     StopOnSignal(const StopOnSignal&) = delete;
     StopOnSignal& operator=(const StopOnSignal&) = delete;

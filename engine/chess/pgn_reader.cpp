@@ -192,7 +192,10 @@ void Reader::Parser::read_moves(Record& record) {
         Token token = take();
         const bool over = token.kind == Token::Kind::end || token.kind == Token::Kind::tag;
         if (over && tree.depth() > 0) throw Refusal{"a variation without its end", token.place};
-        if (token.kind == Token::Kind::tag) pending_ = std::move(token);
+        if (token.kind == Token::Kind::tag) {
+            pending_ = std::move(token);
+            return;
+        }
         if (over) return;
         if (token.kind == Token::Kind::word && is_result(token.text)) {
             if (tree.depth() > 0) continue;  // some programs end variations with "*"
