@@ -119,7 +119,7 @@ std::string Gtp::manual() {
     for (const auto& command : commands()) {
         std::string arguments(command.arguments);
         for (std::size_t at = 0; (at = arguments.find('|', at)) != arguments.npos; at += 2)
-            arguments.insert(at, "\\");
+            arguments.insert(at, 1, '\\');
         text += fmt::format("| `{}` | {} | {} |\n", command.name, arguments, command.help);
     }
     return text;
