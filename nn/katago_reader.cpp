@@ -99,7 +99,10 @@ Convolution read_convolution(Reader& reader, int inputs) {
     for (int k = 0; k < area; ++k)
         for (int i = 0; i < in; ++i)
             for (int o = 0; o < out; ++o)
-                kernel.values[static_cast<std::size_t>((o * in + i) * area + k)] = values[next++];
+                kernel.values[(static_cast<std::size_t>(o) * static_cast<std::size_t>(in) +
+                               static_cast<std::size_t>(i)) *
+                                  static_cast<std::size_t>(area) +
+                              static_cast<std::size_t>(k)] = values[next++];
     return {name, std::move(kernel)};
 }
 
@@ -112,8 +115,10 @@ Matrix read_matrix(Reader& reader, int inputs) {
     Tensor weight{{out, in}, std::vector<float>(values.size())};
     for (int i = 0; i < in; ++i)
         for (int o = 0; o < out; ++o)
-            weight.values[static_cast<std::size_t>(o * in + i)] =
-                values[static_cast<std::size_t>(i * out + o)];
+            weight.values[static_cast<std::size_t>(o) * static_cast<std::size_t>(in) +
+                          static_cast<std::size_t>(i)] =
+                values[static_cast<std::size_t>(i) * static_cast<std::size_t>(out) +
+                       static_cast<std::size_t>(o)];
     return {name, std::move(weight)};
 }
 

@@ -78,8 +78,12 @@ class Importer {
                  channels * input_planes * 9, input_planes, lines_[1].size());
         const auto moves = lines_[lines_.size() - 9].size();
         int board = 2;
-        while (board < 25 && static_cast<std::size_t>(board * board + 1) < moves) ++board;
-        if (static_cast<std::size_t>(board * board + 1) != moves)
+        const auto moves_of = [](int size) {
+            const auto side = static_cast<std::size_t>(size);
+            return side * side + 1;
+        };
+        while (board < 25 && moves_of(board) < moves) ++board;
+        if (moves_of(board) != moves)
             fail("expected moves for a square board and a pass, found {}", moves);
         auto& facts = graph_.facts;
         facts.game = "go";

@@ -220,7 +220,7 @@ Match::~Match() = default;
 
 const Standing& Match::standing() const { return state_->standing; }
 
-void Match::run(std::stop_token stop, const GameReport& report) {
+void Match::run(const std::stop_token& stop, const GameReport& report) {
     auto& state = *state_;
     if (state.standing.verdict != Sprt::Verdict::undecided) return;
     const std::stop_callback forward(stop, [&] { state.stop.request_stop(); });

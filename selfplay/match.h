@@ -67,7 +67,7 @@ class Match {
     const Standing& standing() const;
     // Plays what is left. Returns early when `stop` is requested (games under way are dropped) or
     // the test is decided. Rethrows what a player's start or our disk made impossible.
-    void run(std::stop_token stop, const GameReport& report);
+    void run(const std::stop_token& stop, const GameReport& report);
 
    private:
     struct State;

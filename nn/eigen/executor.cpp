@@ -28,9 +28,8 @@ void shift_plane(const float* plane, float* out, int board, int dx, int dy) {
     for (int y = 0; y < board; ++y, out += board) {
         const bool inside = y + dy >= 0 && y + dy < board;
         std::fill(out, out + board, 0.0f);
-        if (inside && left < right)
-            std::copy(plane + (y + dy) * board + left + dx, plane + (y + dy) * board + right + dx,
-                      out + left);
+        const float* row = plane + std::ptrdiff_t{y + dy} * board;
+        if (inside && left < right) std::copy(row + left + dx, row + right + dx, out + left);
     }
 }
 
@@ -178,7 +177,7 @@ class EigenExecutor : public Executor {
         const float* columns = result(input(n, 0));
         if (side > 1) columns = gather_columns(columns, kernel.shape[1], side);
         start_sum(n);
-        const Eigen::Index row = kernel.shape[1] * side * side;
+        const Eigen::Index row = Eigen::Index{kernel.shape[1]} * side * side;
         planes(n).noalias() += MatrixView(kernel.values.data(), kernel.shape[0], row) *
                                MatrixView(columns, row, points_);
     }
@@ -188,7 +187,8 @@ class EigenExecutor : public Executor {
         for (int c = 0; c < channel_count; ++c)
             for (int y = 0; y < side; ++y)
                 for (int x = 0; x < side; ++x, out += points_)
-                    shift_plane(source + c * points_, out, board_, x - side / 2, y - side / 2);
+                    shift_plane(source + std::ptrdiff_t{c} * points_, out, board_, x - side / 2,
+                                y - side / 2);
         return columns_.data();
     }
 
