@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "engine/chess/lc0_112.h"
 #include "engine/encoding.h"
 
 namespace chess {
@@ -108,8 +109,8 @@ int policy_index(const Chess& game, Move move) {
 }  // namespace alphazero
 
 std::span<const engine::Encoding<Chess>> Chess::encodings() {
-    static constexpr std::array<engine::Encoding<Chess>, 1> list = {
-        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}}};
+    static const std::array<engine::Encoding<Chess>, 2> list = {
+        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}, lc0_112()}};
     return list;
 }
 

@@ -23,6 +23,7 @@ void Go::forget() {
     last_moves_ = {};
     recent_[0] = board_.stones();
     move_count_ = 0;
+    stone_surplus_ = 0;
     passes_ = 0;
     ko_ = 0;
     no_result_ = false;
@@ -118,6 +119,7 @@ void Go::play(Move move) {
 
 void Go::play_stone(int at) {
     const auto mover = side(to_play_);
+    stone_surplus_ += to_play_ == Player::first ? 1 : -1;
     const auto before = board_.stones();
     const auto taken = board_.play(at, colour_of(to_play_));
     captured_[mover] += taken.enemy;

@@ -9,10 +9,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/encoding.h"
 #include "engine/game.h"
 #include "engine/go/board.h"
 #include "engine/go/rules.h"
@@ -37,6 +39,8 @@ class Go {
 
     static constexpr std::string_view name = "go";
     static constexpr Move pass{0};
+    // How networks see it; the first row is what our own are trained with.
+    static std::span<const engine::Encoding<Go>> encodings();
     static constexpr int remembered = 8;  // positions that networks may look back on, this included
 
     explicit Go(int size = 19, Komi komi = {}, const Rules& rules = {});
@@ -60,6 +64,8 @@ class Go {
     std::optional<Point> ko_point() const;           // where a simple ko forbids the mover to take
     // Moves since the start or the last set-up, passes counted.
     int move_count() const { return move_count_; }
+    // Stones that Black has played since then beyond White's, passes not counted.
+    int stone_surplus() const { return stone_surplus_; }
     // Prisoners that `player` took, those of an opponent's suicide among them.
     int captured_by(Player player) const { return captured_[side(player)]; }
     int consecutive_passes() const { return passes_; }
@@ -123,6 +129,7 @@ class Go {
     bool no_result_ = false;
     std::uint16_t ko_ = 0;
     std::int32_t move_count_ = 0;
+    std::int32_t stone_surplus_ = 0;
     std::int32_t handicap_ = 0;
     std::array<std::int32_t, 2> captured_{};
     Komi komi_;

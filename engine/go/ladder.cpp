@@ -1,0 +1,179 @@
+#include "engine/go/ladder.h"
+
+#include <algorithm>
+
+namespace go {
+
+namespace {
+
+constexpr int most_nodes = 25000;
+
+class Moves {
+   public:
+    void add(int at) {
+        if (std::find(begin(), end(), at) == end() && count_ < most) moves_[count_++] = at;
+    }
+    const int* begin() const { return moves_.data(); }
+    const int* end() const { return moves_.data() + count_; }
+    std::size_t size() const { return count_; }
+    int operator[](std::size_t i) const { return moves_[i]; }
+
+   private:
+    static constexpr std::size_t most = 64;
+    std::array<int, most> moves_{};
+    std::size_t count_ = 0;
+};
+
+void add_liberties(const Board& board, int stone, Moves& moves) {
+    board.for_each_stone(stone, [&](int at) {
+        for (const int beside : board.neighbours(at))
+            if (board.at(beside) == Colour::empty) moves.add(beside);
+    });
+}
+
+// Where the chain's owner takes a chain beside it.
+void add_saving_captures(const Board& board, int stone, Moves& moves) {
+    const auto enemy = opponent(board.at(stone));
+    board.for_each_stone(stone, [&](int at) {
+        for (const int beside : board.neighbours(at))
+            if (board.at(beside) == enemy && board.liberties(beside, 2) == 1)
+                add_liberties(board, beside, moves);
+    });
+}
+
+class Reader {
+   public:
+    explicit Reader(const Board& board, int stone)
+        : stone_(stone),
+          owner_(board.at(stone)),
+          most_depth_(board.size() * board.size() * 3 / 2 + 1) {}
+
+    // The owner is to move.
+    bool captured_on_defence(const LadderBoard& position, int depth) {
+        const auto& board = position.board;
+        if (board.liberties(stone_, 2) >= 2) return false;
+        // What only works through a ko does not count.
+        if (position.ko != 0) return false;
+        Moves moves;
+        add_saving_captures(board, stone_, moves);
+        add_liberties(board, stone_, moves);
+        for (const int move : moves) {
+            LadderBoard next = position;
+            if (!play(next, move, owner_)) continue;
+            if (!captured_on_attack(next, depth + 1)) return false;
+            if (gave_up_) return false;
+        }
+        return true;
+    }
+
+    bool play(LadderBoard& position, int move, Colour colour) const {
+        const auto& board = position.board;
+        if (board.at(move) != Colour::empty || move == position.ko ||
+            board.is_suicide(move, colour))
+            return false;
+        position.play(move, colour);
+        return true;
+    }
+
+    bool gave_up() const { return gave_up_; }
+
+   private:
+    bool captured_on_attack(const LadderBoard& position, int depth) {
+        if (++nodes_ > most_nodes) gave_up_ = true;
+        if (gave_up_) return false;
+        if (depth >= most_depth_) return true;
+        const auto& board = position.board;
+        const int liberties = board.liberties(stone_, 3);
+        if (liberties <= 1) return true;
+        if (liberties >= 3) return false;
+        Moves moves;
+        add_liberties(board, stone_, moves);
+        if (dies_between_kos(board, moves)) return true;
+        if (free_neighbours(board, moves[1]) > free_neighbours(board, moves[0]))
+            moves = reversed(moves);
+        for (const int move : moves) {
+            LadderBoard next = position;
+            if (play(next, move, opponent(owner_)) && captured_on_defence(next, depth + 1))
+                return true;
+            if (gave_up_) return false;
+        }
+        return false;
+    }
+
+    static Moves reversed(const Moves& moves) {
+        Moves result;
+        for (std::size_t i = moves.size(); i-- > 0;) result.add(moves[i]);
+        return result;
+    }
+
+    static int free_neighbours(const Board& board, int at) {
+        int count = 0;
+        for (const int beside : board.neighbours(at)) count += board.at(beside) == Colour::empty;
+        return count;
+    }
+
+    // Both liberties are mouths of kos that the owner cannot connect out of.
+    bool dies_between_kos(const Board& board, const Moves& liberties) const {
+        Moves captures;
+        add_saving_captures(board, stone_, captures);
+        if (captures.size() > 0) return false;
+        return std::all_of(liberties.begin(), liberties.end(), [&](int at) {
+            if (free_neighbours(board, at) > 0 || !is_ko_mouth(board, at)) return false;
+            Board next = board;
+            next.play(at, owner_);
+            return next.liberties(at, 3) <= 2;
+        });
+    }
+
+    // Would the attacker, playing there, take exactly one stone with a stone that stands alone?
+    bool is_ko_mouth(const Board& board, int at) const {
+        int in_atari = 0;
+        for (const int beside : board.neighbours(at)) {
+            const auto colour = board.at(beside);
+            if (colour != owner_ && colour != Colour::edge) return false;
+            if (colour != owner_ || board.liberties(beside, 2) != 1) continue;
+            ++in_atari;
+            if (!board.is_lone_stone(beside)) return false;
+        }
+        return in_atari == 1;
+    }
+
+    int stone_;
+    Colour owner_;
+    int most_depth_;
+    int nodes_ = 0;
+    bool gave_up_ = false;
+};
+
+}  // namespace
+
+void LadderBoard::play(int at, Colour colour) {
+    const auto taken = board.play(at, colour);
+    const bool takes_ko =
+        taken.enemy == 1 && board.is_lone_stone(at) && board.liberties(at, 2) == 1;
+    ko = takes_ko ? taken.last : 0;
+}
+
+bool dies_in_ladder(const LadderBoard& position, int stone) {
+    // The owner may break a ko ban at the start, by a threat elsewhere.
+    LadderBoard start{position.board, 0};
+    Reader reader(start.board, stone);
+    return reader.captured_on_defence(start, 0) && !reader.gave_up();
+}
+
+std::vector<int> ladder_captures(const LadderBoard& position, int stone) {
+    std::vector<int> working;
+    if (position.board.liberties(stone, 3) != 2) return working;
+    Moves liberties;
+    add_liberties(position.board, stone, liberties);
+    for (const int move : liberties) {
+        LadderBoard next = position;
+        const Reader reader(next.board, stone);
+        if (reader.play(next, move, opponent(position.board.at(stone))) &&
+            dies_in_ladder(next, stone))
+            working.push_back(move);
+    }
+    return working;
+}
+
+}  // namespace go
