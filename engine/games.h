@@ -12,6 +12,7 @@
 #include "engine/game.h"
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"
+#include "engine/shogi/rollouts.h"
 #include "engine/shogi/shogi.h"
 
 namespace engine {

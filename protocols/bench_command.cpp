@@ -8,6 +8,7 @@
 
 #include "engine/chess/bench.h"
 #include "engine/go/bench.h"
+#include "engine/shogi/bench.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "search/bench.h"
@@ -25,7 +26,7 @@ struct Group {
 
 Figures measure_rules(double seconds) {
     Figures all;
-    for (const auto measure : {go::bench_rules, chess::bench_rules})
+    for (const auto measure : {go::bench_rules, chess::bench_rules, shogi::bench_rules})
         for (auto& figure : measure(seconds)) all.push_back(std::move(figure));
     return all;
 }

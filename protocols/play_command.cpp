@@ -10,7 +10,7 @@
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"
 #include "engine/go/sgf.h"
-#include "engine/shogi/shogi.h"
+#include "engine/shogi/rollouts.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "protocols/go_endgame.h"

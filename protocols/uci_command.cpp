@@ -6,6 +6,7 @@
 
 #include "engine/chess/chess.h"
 #include "engine/chess/rollouts.h"
+#include "engine/shogi/rollouts.h"
 #include "engine/shogi/shogi.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"

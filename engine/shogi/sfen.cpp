@@ -180,8 +180,8 @@ std::string letters(Piece piece) {
 }
 
 void check(const Position& position) {
-    check_totals(position);
     check_kings(position);
+    check_totals(position);
     check_pawns_and_dead_ends(position, Player::first);
     check_pawns_and_dead_ends(position, Player::second);
     Position other = position;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 6> rule_names{"NoEnteringKing", "CSARule24",  "CSARule24H",
                                                      "CSARule27",      "CSARule27H", "TryRule"};
 
-constexpr int full_points = 56;  // 2 rooks and 2 bishops at 5, 36 others at 1
+constexpr int full_points = 54;  // 2 rooks and 2 bishops at 5, 34 others at 1
 
 int points_on(const Position& position, Bitboard squares) {
     const Bitboard big = position.of(Kind::bishop) | position.of(Kind::rook) |

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/encoding.h"
 #include "engine/game.h"
 #include "engine/shogi/position.h"
 
@@ -37,8 +38,11 @@ enum class DeclarationRule : std::uint8_t {
 std::span<const std::string_view> declaration_rule_names();
 std::optional<DeclarationRule> declaration_rule_from_name(std::string_view name);
 
+class Rollouts;
+
 class Shogi {
    public:
+    using Rollouts = shogi::Rollouts;  // engine/shogi/rollouts.h
     static constexpr std::string_view name = "shogi";
 
     Shogi() : Shogi(Position::start()) {}
@@ -89,6 +93,9 @@ class Shogi {
     // USI: "7g7f", "8h2b+", "P*5e".
     std::optional<Move> move_from_text(std::string_view text) const;
     std::string move_to_text(Move move) const;
+
+    // engine/shogi/encoding.h
+    static std::span<const engine::Encoding<Shogi>> encodings();
 
    private:
     // A position reached, and how.

@@ -1,0 +1,115 @@
+#include "engine/shogi/encoding.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdlib>
+
+namespace shogi {
+namespace alphazero {
+namespace {
+
+constexpr float moves_unit = 512;
+
+// Row by row from the far side of `mover`.
+constexpr std::size_t cell(int square, Player mover) {
+    const int seen = mover == Player::first ? square : turned(square);
+    return static_cast<std::size_t>(rank_of(seen) * board_size + board_size - 1 - file_of(seen));
+}
+
+// Fills planes one after another.
+class Writer {
+   public:
+    Writer(std::span<float> out, Player mover) : planes_(out), mover_(mover) {
+        std::fill(out.begin(), out.end(), 0.0f);
+    }
+
+    void squares(Bitboard set) {
+        for_each(set, [this](int square) { planes_[cell(square, mover_)] = 1; });
+        skip(1);
+    }
+    void constant(float value) {
+        if (value != 0) std::fill_n(planes_.begin(), square_count, value);
+        skip(1);
+    }
+    void skip(int number) {
+        planes_ = planes_.subspan(static_cast<std::size_t>(number) * square_count);
+    }
+
+   private:
+    std::span<float> planes_;
+    const Player mover_;
+};
+
+void write_hand(Writer& writer, const Position& position, Player player) {
+    for (const Kind kind : hand_kinds)
+        writer.constant(static_cast<float>(position.hand(player, kind)) /
+                        static_cast<float>(full_set[index(kind)]));
+}
+
+void write_board(Writer& writer, const Position& position, Player mover, int repetitions) {
+    for (const Player player : {mover, ~mover})
+        for (const Kind kind : board_kinds) writer.squares(position.of(player, kind));
+    for (int i = 0; i < 3; ++i) writer.constant(repetitions > i ? 1.0f : 0.0f);
+    write_hand(writer, position, mover);
+    write_hand(writer, position, ~mover);
+}
+
+constexpr int sign(int x) { return (x > 0) - (x < 0); }
+
+// The plane of a move by so many columns and rows, rows counted downwards.
+int movement_plane(int columns, int rows) {
+    if (rows == -2 && std::abs(columns) == 1) return columns < 0 ? 64 : 65;
+    // Clockwise from straight ahead; indexed by 3 * row step + column step.
+    constexpr std::array<int, 9> clockwise{7, 0, 1, 6, -1, 2, 5, 4, 3};
+    const int direction =
+        clockwise[static_cast<std::size_t>(3 * (sign(rows) + 1) + sign(columns) + 1)];
+    return direction * 8 + std::max(std::abs(columns), std::abs(rows)) - 1;
+}
+
+int policy_plane(Move move, Player mover) {
+    if (is_drop(move)) return 132 + static_cast<int>(dropped_kind(move)) - 1;
+    const auto from = static_cast<int>(cell(from_square(move), mover));
+    const auto to = static_cast<int>(cell(to_square(move), mover));
+    const int plane = movement_plane(to % 9 - from % 9, to / 9 - from / 9);
+    return is_promotion(move) ? plane + 66 : plane;
+}
+
+engine::EncodingShape shape(const Shogi&) {
+    return {.planes = planes,
+            .height = board_size,
+            .width = board_size,
+            .globals = 0,
+            .policy_size = policy_size};
+}
+
+}  // namespace
+
+void write(const Shogi& game, std::span<float> out, std::span<float> globals) {
+    assert(out.size() == std::size_t{planes} * square_count && globals.empty());
+    static_cast<void>(globals);
+    const Player mover = game.to_play();
+    Writer writer(out, mover);
+    const int known = std::min(boards, game.plies());
+    for (int back = 0; back < known; ++back)
+        write_board(writer, game.position_before(back), mover, game.repetitions(back));
+    writer.skip((boards - known) * planes_per_board);
+    writer.constant(mover == Player::second ? 1.0f : 0.0f);
+    writer.constant(static_cast<float>(game.move_count()) / moves_unit);
+}
+
+int policy_index(const Shogi& game, Move move) {
+    const Player mover = game.to_play();
+    const int square = is_drop(move) ? to_square(move) : from_square(move);
+    return policy_plane(move, mover) * square_count + static_cast<int>(cell(square, mover));
+}
+
+}  // namespace alphazero
+
+std::span<const engine::Encoding<Shogi>> Shogi::encodings() {
+    static constexpr std::array<engine::Encoding<Shogi>, 1> list = {
+        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}}};
+    return list;
+}
+
+}  // namespace shogi
