@@ -94,8 +94,8 @@ TEST(GoSearch, GoesOnInALittleMemory) {
         EXPECT_LE(picture.memory_used, 1.0f);
         visits = picture.visits;
     }
-// A sanitizer's own shadow memory is resident too.
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+// The thread sanitizer's own memory is resident too, and grows with the work it watches.
+#if !defined(__SANITIZE_THREAD__)
     EXPECT_LT(resident_mib() - before, 16 + 32);
 #else
     static_cast<void>(before);
