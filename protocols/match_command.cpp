@@ -64,8 +64,9 @@ struct Input {
     std::vector<std::string> engines, names, protocols, times;
     std::vector<std::string> init, init_first, init_second;
     std::vector<std::uint64_t> visits;
-    std::string handicap_points, dead = "auto", sprt_scale = "logistic", log;
+    std::string dead = "auto", sprt_scale = "logistic", log;
     std::vector<double> sprt;
+    std::vector<int> draw, resign;
     int handicap = 0;
     double margin = 0, grace = 5, move_timeout = 300, command_timeout = 30;
     bool same_colours = false;
@@ -78,11 +79,15 @@ void add_players(CLI::App& app, Input& input) {
         ->required()
         ->expected(1, 2);
     app.add_option("--name", input.names, "names of the engines")->expected(1, 2);
-    app.add_option("--protocol", input.protocols, "gtp: of both engines, or one for each")
+    app.add_option(
+           "--protocol", input.protocols,
+           "gtp (Go's default), uci (chess), usi (shogi), xboard (chess), gnushogi: of both "
+           "engines, or one for each")
         ->expected(1, 2);
-    app.add_option("--visits", input.visits,
-                   "visits a move instead of time, for both engines or one for each; 0: by the "
-                   "clock. Sent as kata-set-param maxVisits, lz-setoption Visits or level")
+    app.add_option(
+           "--visits", input.visits,
+           "visits a move instead of time, for both engines or one for each; 0: by the "
+           "clock. Sent as kata-set-param maxVisits, lz-setoption Visits, level or go nodes")
         ->expected(1, 2);
     app.add_option("--init", input.init, "line to send to both engines at their start");
     app.add_option("--init1", input.init_first, "line to send to the first engine at its start");
@@ -90,7 +95,7 @@ void add_players(CLI::App& app, Input& input) {
     app.add_option("--log", input.log, "file to which the engines' stderr is appended");
 }
 
-void add_game(CLI::App& app, Input& input) {
+void add_go(CLI::App& app, Input& input) {
     auto& match = input.match;
     app.add_option("--size", match.go.size, "board size")->capture_default_str();
     app.add_option("--komi", match.go.komi, "komi")->capture_default_str();
@@ -103,7 +108,19 @@ void add_game(CLI::App& app, Input& input) {
                    "stands; auto: agree where the rules ask for it")
         ->check(CLI::IsMember({"auto", "agree", "stand"}))
         ->capture_default_str();
-    app.add_option("--openings", match.openings.file, "SGF file with games to begin with");
+}
+
+void add_game(CLI::App& app, Input& input) {
+    auto& match = input.match;
+    app.add_option("--game", match.game, "go, chess or shogi")
+        ->check(CLI::IsMember({"go", "chess", "shogi"}))
+        ->capture_default_str();
+    app.add_option("--entering-king", match.declaration_rule,
+                   "shogi: the rule of declaring a win, as EnteringKingRule names it")
+        ->capture_default_str();
+    app.add_option("--openings", match.openings.file,
+                   "file of games or positions to begin with: SGF; EPD, FEN or PGN; SFEN")
+        ->check(CLI::ExistingFile);
     app.add_option("--plies", match.openings.plies, "moves taken from a game of the file")
         ->capture_default_str();
     app.add_option("--random-plies", match.openings.random_plies,
@@ -111,8 +128,18 @@ void add_game(CLI::App& app, Input& input) {
     app.add_option("--seed", match.openings.seed, "of random openings and of the file's order")
         ->capture_default_str();
     app.add_option("--move-limit", match.rules.move_limit,
-                   "a draw after so many moves; 0: three a point in Go")
+                   "a draw after so many moves of both; 0: three a point in Go, else none")
         ->capture_default_str();
+    app.add_option(
+           "--draw", input.draw,
+           "call a draw when both engines have told at most SCORE centipawns for MOVES moves "
+           "in a row, after move FROM: MOVES SCORE FROM")
+        ->expected(3);
+    app.add_option(
+           "--resign", input.resign,
+           "give a game up for an engine that has told -SCORE centipawns or worse for MOVES "
+           "moves in a row: MOVES SCORE")
+        ->expected(2);
 }
 
 void add_schedule(CLI::App& app, Input& input) {
@@ -163,11 +190,17 @@ Milliseconds milliseconds(double seconds, const char* what) {
     return Milliseconds(std::llround(seconds * 1000));
 }
 
+std::string usual_protocol(const std::string& game) {
+    return game == "go" ? "gtp" : game == "chess" ? "uci" : "usi";
+}
+
 selfplay::PlayerSettings player(const Input& input, std::size_t engine) {
     selfplay::PlayerSettings player;
     player.command = input.engines[engine];
     const bool internal = selfplay::split_command(player.command)[0] == "internal";
-    player.protocol = internal ? "internal" : value_of<std::string>(input.protocols, engine, "gtp");
+    player.protocol =
+        internal ? "internal"
+                 : value_of<std::string>(input.protocols, engine, usual_protocol(input.match.game));
     if (input.names.size() > 1 || engine == 0)
         player.name = value_of<std::string>(input.names, engine, "");
     player.init = input.init;
@@ -184,6 +217,20 @@ std::optional<selfplay::Sprt> sprt_of(const Input& input) {
     using selfplay::EloScale;
     const auto scale = input.sprt_scale == "logistic" ? EloScale::logistic : EloScale::normalised;
     return selfplay::Sprt{input.sprt[0], input.sprt[1], input.sprt[2], input.sprt[3], scale};
+}
+
+selfplay::Adjudication adjudication_of(const Input& input) {
+    selfplay::Adjudication adjudication;
+    if (!input.draw.empty()) {
+        adjudication.draw_moves = input.draw[0];
+        adjudication.draw_score = input.draw[1];
+        adjudication.draw_from = input.draw[2];
+    }
+    if (!input.resign.empty()) {
+        adjudication.resign_moves = input.resign[0];
+        adjudication.resign_score = input.resign[1];
+    }
+    return adjudication;
 }
 
 void complete_go(const Input& input, MatchSettings& match) {
@@ -216,7 +263,8 @@ MatchSettings settings_of(const Input& input) {
     match.rules.command_timeout = milliseconds(input.command_timeout, "command-timeout");
     match.alternate = !input.same_colours;
     match.sprt = sprt_of(input);
-    complete_go(input, match);
+    match.rules.adjudication = adjudication_of(input);
+    if (match.game == "go") complete_go(input, match);
     return match;
 }
 
@@ -290,6 +338,7 @@ int run_match(Arguments arguments) {
     Input input;
     add_players(app, input);
     add_game(app, input);
+    add_go(app, input);
     add_schedule(app, input);
     add_clock(app, input);
     std::vector<std::string> words(arguments.begin(), arguments.end());

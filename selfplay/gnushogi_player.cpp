@@ -60,7 +60,8 @@ Answer GnushogiPlayer::think(engine::Player mover, const Clocks& clocks, Deadlin
         constexpr int moves_to_come = 40;
         const bool overtime = own.in_overtime();
         const auto time = overtime ? own.period : own.longest_move();
-        const int moves = overtime ? std::max(own.moves, 1) : moves_to_come;
+        // It takes up to twice the share of one move.
+        const int moves = overtime ? 2 * std::max(own.moves, 1) : moves_to_come;
         process_.write_line(fmt::format("otime {} {}", time.count() / 10, moves), deadline);
     }
     process_.write_line("go", deadline);

@@ -88,7 +88,7 @@ class GoRulebook final : public Rulebook {
         return std::make_unique<GoReferee>(start_, agree_);
     }
 
-    GameSetup setup() const override {
+    GameSetup setup(const std::string&) const override {
         GameSetup setup;
         setup.game = "go";
         setup.go = conditions_;

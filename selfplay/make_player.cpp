@@ -1,12 +1,16 @@
 #include "selfplay/make_player.h"
 
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/go/rollouts.h"
+#include "engine/games.h"
+#include "selfplay/gnushogi_player.h"
 #include "selfplay/gtp_player.h"
 #include "selfplay/in_process_player.h"
+#include "selfplay/uci_player.h"
+#include "selfplay/xboard_player.h"
 
 namespace selfplay {
 
@@ -28,13 +32,20 @@ search::SearchParams params_of(const PlayerSettings& settings) {
     return params;
 }
 
+template <engine::Game G>
+G start_for(const GameSetup& setup) {
+    if constexpr (std::is_same_v<G, go::Go>)
+        return start_of(setup.go);
+    else
+        return setup.start.empty() ? G() : G::from_text(setup.start);
+}
+
 Made make_internal(const PlayerSettings& settings, const std::string& game, Deadline,
                    std::stop_token stop) {
-    if (game == "go")
-        return std::make_unique<InProcessPlayer<go::Go>>(
-            params_of(settings), settings.visits,
-            [](const GameSetup& setup) { return start_of(setup.go); }, std::move(stop));
-    engine::fail("no internal player of {}", game);
+    return engine::Games::visit(game, [&]<class G>() -> Made {
+        return std::make_unique<InProcessPlayer<G>>(params_of(settings), settings.visits,
+                                                    start_for<G>, std::move(stop));
+    });
 }
 
 Made make_gtp(const PlayerSettings& settings, const std::string& game, Deadline deadline,
@@ -43,14 +54,38 @@ Made make_gtp(const PlayerSettings& settings, const std::string& game, Deadline 
     return std::make_unique<GtpPlayer>(settings, std::move(stop), deadline);
 }
 
+Made make_uci(const PlayerSettings& settings, const std::string& game, Deadline deadline,
+              std::stop_token stop) {
+    if (game != "chess") engine::fail("{}: UCI engines play chess only", settings.command);
+    return std::make_unique<UciPlayer>(settings, uci_dialect(), std::move(stop), deadline);
+}
+
+Made make_usi(const PlayerSettings& settings, const std::string& game, Deadline deadline,
+              std::stop_token stop) {
+    if (game != "shogi") engine::fail("{}: USI engines play shogi only", settings.command);
+    return std::make_unique<UciPlayer>(settings, usi_dialect(), std::move(stop), deadline);
+}
+
+Made make_xboard(const PlayerSettings& settings, const std::string& game, Deadline deadline,
+                 std::stop_token stop) {
+    if (game != "chess") engine::fail("{}: xboard engines play chess only", settings.command);
+    return std::make_unique<XboardPlayer>(settings, std::move(stop), deadline);
+}
+
+Made make_gnushogi(const PlayerSettings& settings, const std::string& game, Deadline deadline,
+                   std::stop_token stop) {
+    if (game != "shogi") engine::fail("{}: gnushogi plays shogi only", settings.command);
+    return std::make_unique<GnushogiPlayer>(settings, std::move(stop), deadline);
+}
+
 struct Protocol {
     std::string_view name;
     Made (*make)(const PlayerSettings&, const std::string& game, Deadline, std::stop_token);
 };
 
 constexpr Protocol protocols[] = {
-    {"internal", make_internal},
-    {"gtp", make_gtp},
+    {"internal", make_internal}, {"gtp", make_gtp},       {"uci", make_uci},
+    {"usi", make_usi},           {"xboard", make_xboard}, {"gnushogi", make_gnushogi},
 };
 
 }  // namespace
@@ -60,7 +95,8 @@ std::unique_ptr<Player> make_player(const PlayerSettings& settings, const std::s
     for (const auto& protocol : protocols)
         if (protocol.name == settings.protocol)
             return protocol.make(settings, game, Clock::now() + timeout, std::move(stop));
-    engine::fail("no such protocol: {}", settings.protocol);
+    engine::fail("no such protocol: {} (internal, gtp, uci, usi, xboard, gnushogi)",
+                 settings.protocol);
 }
 
 }  // namespace selfplay

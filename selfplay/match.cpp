@@ -80,7 +80,9 @@ void check(const MatchSettings& settings) {
 
 std::unique_ptr<Rulebook> rulebook_of(const MatchSettings& settings) {
     if (settings.game == "go") return go_rulebook(settings.go, settings.agree_on_dead);
-    engine::fail("no such game: {}", settings.game);
+    if (settings.game == "chess") return chess_rulebook();
+    if (settings.game == "shogi") return shogi_rulebook(settings.declaration_rule);
+    engine::fail("no such game: {} (go, chess, shogi)", settings.game);
 }
 
 void count(Standing& standing, const GameRecord& record, const std::optional<Sprt>& sprt) {
@@ -100,6 +102,7 @@ std::string identity(const MatchSettings& settings) {
     return Json{{"game", settings.game},
                 {"go", settings.game == "go" ? to_json(settings.go) : Json("none")},
                 {"agree_on_dead", settings.agree_on_dead},
+                {"declaration_rule", settings.declaration_rule},
                 {"players", {to_json(settings.players[0]), to_json(settings.players[1])}},
                 {"alternate", settings.alternate},
                 {"rules", to_json(settings.rules)},

@@ -28,7 +28,8 @@ struct OpeningSettings {
 struct MatchSettings {
     std::string game = "go";
     GoConditions go;
-    bool agree_on_dead = true;
+    bool agree_on_dead = true;                   // Go
+    std::string declaration_rule = "CSARule27";  // shogi
     std::array<PlayerSettings, 2> players;
     int games = 100;
     bool alternate = true;  // each opening is played twice, colours exchanged

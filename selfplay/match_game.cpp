@@ -121,8 +121,7 @@ class Game {
     }
 
     void set_up() {
-        auto setup = rulebook_.setup();
-        setup.start = order_.opening.start;
+        auto setup = rulebook_.setup(order_.opening.start);
         for (const auto side : both) {
             setup.time = rules_.time[engine_of(side)];
             call(side).new_game(setup, side, command_deadline());

@@ -40,15 +40,16 @@ class Splitter {
 
    private:
     void take(char c) {
-        if (std::exchange(escaped_, false))
-            add(c);
-        else if (c == '\\' && quote_ != '\'')
+        const bool plain = std::exchange(escaped_, false);
+        const bool quotes = c == '\'' || c == '"';
+        const bool blank = c == ' ' || c == '\t' || c == '\n';
+        if (!plain && c == '\\' && quote_ != '\'')
             escaped_ = true;
-        else if (quote_ != 0)
-            c == quote_ ? static_cast<void>(quote_ = 0) : add(c);
-        else if (c == '\'' || c == '"')
+        else if (!plain && quote_ != 0 && c == quote_)
+            quote_ = 0;
+        else if (!plain && quote_ == 0 && quotes)
             quote_ = c, in_word_ = true;
-        else if (c == ' ' || c == '\t' || c == '\n')
+        else if (!plain && quote_ == 0 && blank)
             end_word();
         else
             add(c);
@@ -163,6 +164,7 @@ Process::Process(std::string_view command, ProcessOptions options) : options_(st
 void Process::start(const std::vector<std::string>& arguments) {
     Pipe input, output;
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     // posix_spawn takes char* but leaves the strings alone.
     for (const auto& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);

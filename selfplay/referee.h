@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,7 +45,19 @@ class Referee {
     virtual bool may_claim_win() const { return false; }
 };
 
-// Any game, by the concept alone. A game that can name its ending has `outcome_reason()`.
+// How moves of a game are read beyond its own notation, and how its endings are called. A game
+// with more to say specialises it.
+template <engine::Game G>
+struct Manner {
+    static std::optional<engine::Move> read(const G& game, std::string_view text) {
+        return game.move_from_text(text);
+    }
+    // Of a game that is over.
+    static std::string ending(const G&) { return "rules"; }
+    static bool may_claim_win(const G&) { return false; }
+};
+
+// Any game, by the concept and its manner alone.
 template <engine::Game G>
 class GameReferee final : public Referee {
    public:
@@ -53,7 +66,7 @@ class GameReferee final : public Referee {
     engine::Player to_play() const override { return game_.to_play(); }
 
     Played play(std::string_view text) override {
-        const auto move = game_.move_from_text(text);
+        const auto move = Manner<G>::read(game_, text);
         if (!move) return {{}, "not a legal move"};
         auto written = game_.move_to_text(*move);
         game_.play(*move);
@@ -70,15 +83,10 @@ class GameReferee final : public Referee {
     Verdict verdict() const override {
         const auto outcome = game_.outcome();
         if (outcome == engine::Outcome::ongoing) return {};
-        if constexpr (requires { std::string(game_.outcome_reason()); })
-            return {outcome, std::string(game_.outcome_reason()), {}};
-        return {outcome, "rules", {}};
+        return {outcome, Manner<G>::ending(game_), {}};
     }
 
-    bool may_claim_win() const override {
-        if constexpr (requires { bool(game_.may_declare()); }) return game_.may_declare();
-        return false;
-    }
+    bool may_claim_win() const override { return Manner<G>::may_claim_win(game_); }
 
    private:
     G game_;

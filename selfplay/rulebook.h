@@ -20,10 +20,11 @@ class Rulebook {
 
     // Of a game from `start` (empty: the first position). Fails with engine::Error on a bad one.
     virtual std::unique_ptr<Referee> referee(const std::string& start) const = 0;
-    // What every player is told; the start and the time are the match's to fill in.
-    virtual GameSetup setup() const = 0;
+    // What every player is told of a game from `start`; the time is the match's to fill in.
+    virtual GameSetup setup(const std::string& start) const = 0;
     // The games or positions of a file, each cut after `plies` moves. Those that do not fit the
-    // conditions (size, set-up stones, illegal moves) are left out; none left is an engine::Error.
+    // conditions (size, set-up stones, illegal moves, a finished game) are left out; none left is
+    // an engine::Error.
     virtual std::vector<Opening> openings(const std::filesystem::path& path, int plies) const = 0;
     // The game in its field's file format, of the ending `extension` ("sgf").
     virtual std::string to_text(const GameRecord& record) const = 0;
@@ -35,5 +36,11 @@ class Rulebook {
 // Go. With `agree`, stones that both players call dead come off before counting; without, the
 // board is counted as it stands.
 std::unique_ptr<Rulebook> go_rulebook(const GoConditions& conditions, bool agree);
+// Chess, Chess960 where a position asks for it. Openings from EPD, FEN and PGN files.
+std::unique_ptr<Rulebook> chess_rulebook();
+
+// Shogi; `declaration_rule` by the name that USI engines give it ("CSARule27"). Openings from
+// files of SFEN or "startpos moves …" lines.
+std::unique_ptr<Rulebook> shogi_rulebook(const std::string& declaration_rule);
 
 }  // namespace selfplay
