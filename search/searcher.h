@@ -80,19 +80,17 @@ class Searcher {
     void rebuild(const SearchParams& params);
     void hire();
     void reset_tallies();
-    std::vector<Move> line_to(const G& root) const;
     void begin(const Limits& limits);
     void take_effect(const Limits& limits);
     void run(int index, const Report& report, const Report& done);
     void work(Worker<G>& worker);
     void conduct(const Report& report, const Report& done);
-    std::optional<TimePoint> next_event(TimePoint next_report) const;
+    TimePoint next_event(TimePoint next_report) const;
     bool over() const;
     void add_owners(Analysis& picture) const;
     static Milliseconds since(TimePoint start) {
         return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
     }
-    static int moves_to_come(const G& game);
 
     SearchParams params_;
     std::unique_ptr<TreeSearch<G>> search_;
@@ -160,35 +158,9 @@ void Searcher<G>::set_position(const G& root) {
     const std::lock_guard lock(picture_mutex_);
     if (root == position()) return;
     reset_tallies();
-    const auto line = line_to(root);
+    const auto line = search_->line_to(root);
     if (line.empty()) return search_->set_root(root);
     for (const Move move : line) search_->advance(move);
-}
-
-// The moves of the tree, two at most, from the present position to `root`; empty when there is no
-// such line.
-template <engine::Game G>
-std::vector<Move> Searcher<G>::line_to(const G& root) const {
-    const Tree& tree = search_->tree();
-    const auto visited = [&](NodeId parent, const Edge& edge) {
-        const NodeId child = tree.child(parent, edge);
-        return child != no_node && tree[child].visits > 0 ? child : no_node;
-    };
-    for (const Edge& first : tree.edges(tree.root())) {
-        const NodeId node = visited(tree.root(), first);
-        if (node == no_node) continue;
-        G after_one = position();
-        after_one.play(first.move);
-        if (after_one == root) return {first.move};
-        if (after_one.to_play() == root.to_play() || !tree[node].expanded()) continue;
-        for (const Edge& second : tree.edges(node)) {
-            if (visited(node, second) == no_node) continue;
-            G after_two = after_one;
-            after_two.play(second.move);
-            if (after_two == root) return {first.move, second.move};
-        }
-    }
-    return {};
 }
 
 template <engine::Game G>
@@ -323,10 +295,7 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     const auto every = limits_.report_every;
     TimePoint next_report = every ? Clock::now() + *every : TimePoint::max();
     while (!over()) {
-        if (const auto event = next_event(next_report))
-            changed_.wait_until(lock, *event);
-        else
-            changed_.wait(lock);
+        changed_.wait_until(lock, next_event(next_report));
         if (Clock::now() < next_report || over()) continue;
         next_report = Clock::now() + *every;
         lock.unlock();
@@ -355,15 +324,15 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     changed_.notify_all();
 }
 
-// With mutex_ held: when to look again, if ever unasked.
+// With mutex_ held: when to look again at the latest.
 template <engine::Game G>
-std::optional<TimePoint> Searcher<G>::next_event(TimePoint next_report) const {
-    constexpr Milliseconds step{10};
-    std::optional<TimePoint> next;
-    if (next_report != TimePoint::max()) next = next_report;
-    if (!schedule_ || !schedule_->hard()) return next;
-    const auto check = std::min(effective_ + *schedule_->hard(), Clock::now() + step);
-    return next ? std::min(*next, check) : check;
+TimePoint Searcher<G>::next_event(TimePoint next_report) const {
+    constexpr Milliseconds step{10}, long_time{1000000};
+    const auto now = Clock::now();
+    const bool timed = schedule_ && schedule_->hard();
+    const auto check =
+        timed ? std::min(effective_ + *schedule_->hard(), now + step) : now + long_time;
+    return std::min(next_report, check);
 }
 
 // With mutex_ held.
@@ -423,12 +392,6 @@ Analysis Searcher<G>::think(const Limits& limits) {
     start(limits, {}, [&](const Analysis& picture) { last = picture; });
     crew_->wait();
     return last;
-}
-
-template <engine::Game G>
-int Searcher<G>::moves_to_come(const G& game) {
-    if constexpr (requires { game.moves_to_come(); }) return game.moves_to_come();
-    return 30;
 }
 
 }  // namespace search

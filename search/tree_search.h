@@ -42,6 +42,15 @@ class MoveFilter {
     std::bitset<65536> barred_;
 };
 
+// A side's own moves that the rest of the game is likely to take, as the clock must plan.
+template <engine::Game G>
+int moves_to_come(const G& game) {
+    if constexpr (requires { game.moves_to_come(); })
+        return game.moves_to_come();
+    else
+        return 30;
+}
+
 template <engine::Game G>
 class TreeSearch {
    public:
@@ -71,6 +80,30 @@ class TreeSearch {
     void set_params(const SearchParams& params) {
         params_ = params;
         rule_ = rule_of(params);
+    }
+
+    // The moves of the tree, two at most, from the root to `game`; empty when there is no such
+    // line.
+    std::vector<engine::Move> line_to(const G& game) const {
+        const auto visited = [&](NodeId parent, const Edge& edge) {
+            const NodeId child = tree_.child(parent, edge);
+            return child != no_node && tree_[child].visits > 0 ? child : no_node;
+        };
+        for (const Edge& first : tree_.edges(tree_.root())) {
+            const NodeId node = visited(tree_.root(), first);
+            if (node == no_node) continue;
+            G after_one = root_;
+            after_one.play(first.move);
+            if (after_one == game) return {first.move};
+            if (after_one.to_play() == game.to_play() || !tree_[node].expanded()) continue;
+            for (const Edge& second : tree_.edges(node)) {
+                if (visited(node, second) == no_node) continue;
+                G after_two = after_one;
+                after_two.play(second.move);
+                if (after_two == game) return {first.move, second.move};
+            }
+        }
+        return {};
     }
 
     void set_root(const G& root) {
