@@ -16,7 +16,8 @@ std::string uci(const Record& record) {
     Chess game = record.start;
     std::string text;
     for (const Move move : record.main_line()) {
-        text += (text.empty() ? "" : " ") + game.move_to_text(move);
+        if (!text.empty()) text += ' ';
+        text += game.move_to_text(move);
         game.play(move);
     }
     return text;
