@@ -60,9 +60,9 @@ constexpr int sign(int x) { return (x > 0) - (x < 0); }
 // The plane of a move by so many columns and rows, rows counted downwards.
 int movement_plane(int columns, int rows) {
     if (rows == -2 && std::abs(columns) == 1) return columns < 0 ? 64 : 65;
-    // Clockwise from straight ahead; indexed by 3 * row step + column step.
+    // Clockwise from straight ahead; by row step and column step.
     constexpr std::array<int, 9> clockwise{7, 0, 1, 6, -1, 2, 5, 4, 3};
-    const int step = 3 * (sign(rows) + 1) + sign(columns) + 1;
+    const int step = 4 + 3 * sign(rows) + sign(columns);
     const int direction = clockwise[static_cast<std::size_t>(step)];
     return direction * 8 + std::max(std::abs(columns), std::abs(rows)) - 1;
 }

@@ -26,11 +26,14 @@ std::string_view diagram_name_of(Kind kind) {
     return name_of(kind);
 }
 
+std::string_view kanji_digit(int digit) { return kanji_digits[static_cast<std::size_t>(digit)]; }
+std::string_view wide_digit(int digit) { return wide_digits[static_cast<std::size_t>(digit)]; }
+
 std::string kanji_number(int number) {
     std::string text;
-    if (number >= 20) text += kanji_digits[static_cast<std::size_t>(number / 10)];
-    if (number >= 10) text += kanji_digits[10];
-    if (number % 10 != 0) text += kanji_digits[static_cast<std::size_t>(number % 10)];
+    if (number >= 20) text += kanji_digit(number / 10);
+    if (number >= 10) text += kanji_digit(10);
+    if (number % 10 != 0) text += kanji_digit(number % 10);
     return text;
 }
 
@@ -62,7 +65,7 @@ void append_diagram(std::string& text, const Position& position) {
             text += !piece.empty() && piece.player() == Player::second ? 'v' : ' ';
             text += piece.empty() ? "・" : diagram_name_of(piece.kind());
         }
-        text.append("|").append(kanji_digits[static_cast<std::size_t>(rank + 1)]) += '\n';
+        text.append("|").append(kanji_digit(rank + 1)) += '\n';
     }
     text += "+---------------------------+\n先手の持駒：" + hand_of(position, Player::first) + "\n";
     if (position.to_play() == Player::second) text += "後手番\n";
@@ -177,8 +180,7 @@ std::string to_kif(const Position& position, Move move, Move before) {
     if (before != Move{} && to_square(before) == to)
         text = "同　";
     else
-        text.append(wide_digits[static_cast<std::size_t>(file_of(to) + 1)])
-            .append(kanji_digits[static_cast<std::size_t>(rank_of(to) + 1)]);
+        text.append(wide_digit(file_of(to) + 1)).append(kanji_digit(rank_of(to) + 1));
     if (is_drop(move)) return text.append(name_of(dropped_kind(move))).append("打");
     const int from = from_square(move);
     text.append(name_of(position.at(from).kind()));
