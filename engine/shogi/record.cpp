@@ -25,6 +25,7 @@ Outcome outcome_of(Ending ending, const Shogi& game) {
             return engine::win_for(game.to_play());
         case Ending::impasse:
         case Ending::draw:
+        case Ending::move_limit:
             return Outcome::draw;
         // A perpetual check is written down as a repetition too.
         case Ending::repetition:

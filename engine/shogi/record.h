@@ -22,6 +22,7 @@ enum class Ending : std::uint8_t {
     impasse,      // a draw by agreement or count
     declaration,  // the mover declared the win
     draw,
+    move_limit,  // a draw
     time_up,
     foul,              // the mover's
     foul_of_opponent,  // the mover wins

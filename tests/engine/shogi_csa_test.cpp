@@ -113,6 +113,7 @@ TEST(ShogiCsa, Endings) {
           Ended{"%SENNICHITE", Ending::repetition, Outcome::draw},
           Ended{"%JISHOGI", Ending::impasse, Outcome::draw},
           Ended{"%HIKIWAKE", Ending::draw, Outcome::draw},
+          Ended{"%MAX_MOVES", Ending::move_limit, Outcome::draw},
           Ended{"%KACHI", Ending::declaration, Outcome::second_wins},
           Ended{"%TIME_UP", Ending::time_up, Outcome::first_wins},
           Ended{"%ILLEGAL_MOVE", Ending::foul, Outcome::first_wins},
