@@ -5,9 +5,9 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <istream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,11 +17,13 @@
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"
 #include "engine/go/sgf.h"
-#include "protocols/go_endgame.h"
+#include "protocols/go_judge.h"
+#include "protocols/gtp_analysis.h"
 #include "protocols/gtp_input.h"
 #include "protocols/gtp_time.h"
 #include "protocols/lines.h"
 #include "protocols/session.h"
+#include "protocols/words.h"
 
 namespace protocols {
 
@@ -30,31 +32,11 @@ struct GtpSettings {
     int size = 19;
     double komi = 7.5;
     go::Rules rules;
-    double seconds = 5;             // a move when no clock and no simulations are set
+    double seconds = 5;             // a move when no clock and no other limit is set
     std::uint64_t simulations = 0;  // a move; 0: no such limit
-    double resign_below = 0.05;     // winrate; 0: never
+    std::uint64_t visits = 0;       // likewise, those kept from earlier moves counted
+    double resign_below = 0.1;      // winrate; 0: never
     bool ponder = false;
-};
-
-// The words behind a command's name.
-class Words {
-   public:
-    explicit Words(std::string_view text);
-
-    bool empty() const { return at_ == words_.size(); }
-    std::size_t left() const { return words_.size() - at_; }
-    // The next word; fails, naming `what` is missing.
-    std::string_view take(std::string_view what);
-    // Likewise as a number within [least, most].
-    int whole(std::string_view what, int least, int most);
-    double number(std::string_view what, double least, double most);
-    engine::Player colour();
-    std::string rest() const;
-    const std::string& peek() const { return words_[at_]; }
-
-   private:
-    std::vector<std::string> words_;
-    std::size_t at_ = 0;
 };
 
 class Gtp {
@@ -75,21 +57,21 @@ class Gtp {
 
     // Until `quit` or the end of input.
     void serve(std::istream& in);
-    // One line, answered; false for `quit`.
+    // One line, answered; false for `quit`. Lines of an analysis go on until the next call.
     bool handle(std::string_view line);
-    // Called for each line as it arrives, from any thread: whether to cut a think short.
+    // Called for each line as it comes in, from any thread: cuts a think short where it may.
     void arrived(std::string_view line);
 
    private:
-    // What a running think is for: which lines end it.
-    enum class Thinking : std::uint8_t { no, to_move, analysing, cancellable };
+    // Which lines cut short what the engine is thinking about.
+    enum class Cut : std::uint8_t { by_none, by_interrupt, by_any };
 
-    struct AnalysisRequest {
+    // What a genmove is to do with its result.
+    struct Errand {
         engine::Player player;
-        search::Limits limits;
-        bool kata = false, floats = false;
-        int most_moves = 1000, least_moves = 0;
-        bool root_info = false, ownership = false, visits_of_variation = false;
+        bool plays = true, cleans_up = false;
+        const AnalysisRequest* reports = nullptr;  // an answer in lines that ends with `play`
+        Cut cut = Cut::by_interrupt;
     };
 
     // gtp_core.cpp: about the engine and the session
@@ -112,6 +94,7 @@ class Gtp {
     std::string all_params(Words&);
     std::string param(Words& words);
     std::string set_param(Words& words);
+    std::string set_params(Words& words);
     std::string memory_report(Words&);
 
     // gtp_board.cpp: the position
@@ -131,6 +114,9 @@ class Gtp {
     std::string set_free_handicap(Words& words);
     std::string query_handicap(Words&);
     std::string set_position(Words& words);
+    std::string set_up(Words& words);
+    std::string play_black(Words& words);
+    std::string play_white(Words& words);
     std::string setup_player(Words& words);
     std::string all_legal(Words& words);
     std::string is_legal(Words& words);
@@ -152,7 +138,7 @@ class Gtp {
     std::string time_left(Words& words);
 
     // gtp_think.cpp: moves, scores, analysis
-    std::string genmove(Words& words);
+    std::string genmove_command(Words& words);
     std::string reg_genmove(Words& words);
     std::string cleanup(Words& words);
     std::string lz_genmove_analyze(Words& words);
@@ -164,6 +150,9 @@ class Gtp {
     std::string kata_analyze(Words& words);
     std::string any_analyze(Words& words);
     std::string top_moves(Words&);
+    std::string debug_moves(Words&);
+    std::string explain_last_move(Words&);
+    std::string benchmark(Words& words);
     std::string final_score(Words&);
     std::string estimate_score(Words&);
     std::string final_status_list(Words& words);
@@ -174,70 +163,70 @@ class Gtp {
     std::string gogui_ownership(Words&);
     std::string gogui_visits(Words&);
     std::string gogui_variation(Words&);
+    std::string gogui_title(Words&);
 
     static const Command table_[];
 
     const go::Go& now() const { return session_.now(); }
-    const Command* find(std::string_view name) const;
-    void run(const Command& command, std::string_view arguments);
+    static const Command* find(std::string_view name);
+    void run(const Command& command, Words& words);
     void answer(char sign, std::string_view text);
     void end_analysis();
     void restart(const go::Go& start);
     void play(engine::Player player, go::Move move);
     void play_checked(engine::Player player, std::string_view vertex);
+    void take_back();
+    go::Go with_stones(Words& words) const;
+    void start_handicap(std::span<const go::Point> points);
+    void change_params(std::string_view row, std::string_view value);
     go::Point vertex_of(std::string_view text) const;
     std::string points_text(std::span<const go::Point> points) const;
     std::string result_text();
     void resize(int size);
     bool board_empty() const;
 
-    search::Limits move_limits(engine::Player player) const;
-    search::Analysis think(const AnalysisRequest& request, Thinking purpose);
-    std::string choose(const search::Analysis& picture, engine::Player player, bool clean_up);
-    std::string move_now(engine::Player player, bool play_it, bool clean_up);
-    std::string genmove_analyze(Words& words, bool kata, bool floats);
-    std::string search_analyze(Words& words, bool cancellable);
-    std::string analyze(Words& words, bool kata, bool floats);
-    AnalysisRequest parse_analysis(Words& words, bool kata, bool floats) const;
-    void parse_key(std::string_view key, Words& words, AnalysisRequest& request) const;
-    static void parse_switch(std::string_view key, std::string_view value,
-                             AnalysisRequest& request);
-    void parse_restriction(Words& words, bool allow, AnalysisRequest& request) const;
-    void print_analysis(const search::Analysis& picture, const AnalysisRequest& request);
-    std::string move_info(const search::MoveAnalysis& move, int order,
-                          const AnalysisRequest& request) const;
-    const Reading& reading();
-    void read_by_rollouts();
-    void remember(const search::Analysis& picture, engine::Player player, bool restricted);
-    void remember_owners(const search::Analysis& picture, engine::Player player);
-    bool knows_owners() const;
-    bool may_read(engine::Player player) const;
-    std::vector<go::Move> moves_against_dead(engine::Player player);
+    search::Limits move_limits(engine::Player player);
+    search::Milliseconds reading_time(engine::Player player) const;
+    go::Go root_for(engine::Player player) const;
+    Ending read_ending(const go::Go& game, bool clean_up);
+    search::Analysis think(const go::Go& root, const search::Limits& limits,
+                           const AnalysisRequest* reports, Cut cut);
+    std::string choose(const Errand& errand);
+    std::string best_move(const search::Analysis& picture, const Errand& errand);
+    std::string genmove(const Errand& errand);
+    std::string genmove_analyze(Words& words, AnalysisDialect dialect);
+    std::string search_analyze(Words& words, Cut cut);
+    std::string analyze(Words& words, AnalysisDialect dialect);
+    Session::Report printer(const AnalysisRequest& request);
+    void begin_stream();
+    Reading reading() { return judge_.read(now()); }
+    std::vector<float> black_owners() const;
+    const search::Analysis& last_search() const;
+    void remember(const go::Go& root);
     void forget();
-    search::Limits limits_of(const AnalysisRequest& request) const;
     void ponder();
 
     GtpSettings settings_;
     Output& out_;
     GameSession<go::Go> session_;
+    GoJudge judge_;
     std::vector<go::sgf::Turn> turns_;
-    std::string id_;  // of the command being answered
-    bool answered_ = false;
+    std::string id_;         // of the command being answered
+    bool answered_ = false;  // its first line is out
+    bool analysing_ = false;
     bool quitting_ = false;
     GtpClock clock_;
     std::array<int, 2> hopeless_moves_{};  // in a row, of each side
     std::string result_;                   // of a game that ended by resignation
+    std::optional<go::Go> ponder_on_;
 
-    std::atomic<Thinking> thinking_ = Thinking::no;
-    std::atomic<bool> cut_ = false;
-    bool restricted_ = false;  // the running analysis looks at some moves only
+    InputAhead* input_ = nullptr;
+    std::mutex cut_mutex_;  // the two below: the reading thread cuts a think short
+    Cut cut_ = Cut::by_none;
+    bool was_cut_ = false;
+
     search::Analysis last_picture_;
-    engine::Player last_player_ = engine::Player::first;  // who was to move in it
-
-    // Expected owners of the stones of `read_`, and what they say about the present game.
-    std::vector<float> owners_;
-    go::Stones read_{};
-    std::optional<Reading> reading_;
+    std::optional<go::Go> last_root_;
 };
 
 }  // namespace protocols

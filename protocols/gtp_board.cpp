@@ -14,14 +14,20 @@ using engine::Player;
 
 char letter(Player player) { return player == Player::first ? 'B' : 'W'; }
 
-// `word` is in lower case.
-bool same_word(std::string_view text, std::string_view word) {
-    return std::equal(text.begin(), text.end(), word.begin(), word.end(),
-                      [](char a, char b) { return (a | 32) == b; });
-}
-
 // A board like `game`'s without stones.
 go::Go emptied(const go::Go& game, int size) { return go::Go(size, game.komi(), game.rules()); }
+
+// The first game of an SGF file.
+go::sgf::Record read_record(const std::string& path, int most_moves) {
+    const auto text = go::sgf::read_file(path);
+    try {
+        const auto tree = go::sgf::GameReader(text).next();
+        if (!tree) engine::fail("no game in it");
+        return go::sgf::main_line(*tree, most_moves);
+    } catch (const engine::Error& error) {
+        engine::fail("{}: {}", path, error.what());
+    }
+}
 
 }  // namespace
 
@@ -47,18 +53,19 @@ go::Point Gtp::vertex_of(std::string_view text) const {
     const auto point = go::point_from_vertex(text, now().size());
     if (!point) {
         const auto corner = go::vertex({now().size() - 1, now().size() - 1});
-        engine::fail("{} is no point of this board (A1..{}, without I)", text, corner);
+        engine::fail("{} is no point of this board (A1..{}, without I)", text.substr(0, 20),
+                     corner);
     }
     return *point;
 }
 
 void Gtp::play_checked(Player player, std::string_view vertex) {
-    const bool passes = same_word(vertex, "pass");
-    if (same_word(vertex, "resign")) {
+    const auto word = lower(vertex.substr(0, 20));
+    if (word == "resign") {
         result_ = fmt::format("{}+R", letter(~player));
         return;
     }
-    const go::Move move = passes ? go::Go::pass : now().move_at(vertex_of(vertex));
+    const go::Move move = word == "pass" ? go::Go::pass : now().move_at(vertex_of(vertex));
     go::Go game = now();
     game.set_to_play(player);
     if (const auto why = game.why_illegal(move); !why.empty())
@@ -123,7 +130,7 @@ std::string Gtp::play_sequence(Words& words) {
             play_checked(player, words.take("the vertex"));
         }
     } catch (const engine::Error&) {
-        for (; turns_.size() > before; turns_.pop_back()) session_.undo();
+        while (turns_.size() > before) take_back();
         result_ = result;
         throw;
     }
@@ -132,17 +139,32 @@ std::string Gtp::play_sequence(Words& words) {
 
 std::string Gtp::undo(Words&) {
     if (turns_.empty()) engine::fail("cannot undo: no move has been played");
+    take_back();
+    return "";
+}
+
+void Gtp::take_back() {
     session_.undo();
     turns_.pop_back();
     result_.clear();
+    hopeless_moves_.fill(0);
+}
+
+std::string Gtp::play_black(Words& words) {
+    play_checked(Player::first, words.take("the vertex"));
+    return "";
+}
+
+std::string Gtp::play_white(Words& words) {
+    play_checked(Player::second, words.take("the vertex"));
     return "";
 }
 
 std::string Gtp::undo_many(Words& words) {
     const auto played = static_cast<int>(turns_.size());
+    if (played == 0) engine::fail("cannot undo: no move has been played");
     const int moves = words.empty() ? 1 : words.whole("the number of moves", 0, played);
-    if (moves > played) engine::fail("cannot undo: no move has been played");
-    for (int i = 0; i < moves; ++i) undo(words);
+    for (int i = 0; i < moves; ++i) take_back();
     return "";
 }
 
@@ -152,52 +174,48 @@ std::string Gtp::show_board(Words&) {
     return text;
 }
 
-std::string Gtp::fixed_handicap(Words& words) {
-    if (!board_empty()) engine::fail("the board is not empty");
-    const int most = go::most_fixed_handicap(now().size());
-    if (most < 2) engine::fail("a board of size {} has no fixed handicap", now().size());
-    const auto points = go::fixed_handicap(now().size(), words.whole("the handicap", 2, most));
+void Gtp::start_handicap(std::span<const go::Point> points) {
     auto game = emptied(now(), now().size());
-    for (const auto& point : points) game.set_up(point, Player::first);
+    for (const auto& point : points) {
+        if (game.at(point)) engine::fail("{} is named twice", go::vertex(point));
+        game.set_up(point, Player::first);
+    }
+    if (points.size() < 2 || !game.every_chain_has_liberty())
+        engine::fail("a handicap has at least 2 stones, each with a liberty");
     game.set_handicap(static_cast<int>(points.size()));
     game.set_to_play(Player::second);
     restart(game);
+}
+
+std::string Gtp::fixed_handicap(Words& words) {
+    if (!board_empty()) engine::fail("the board is not empty");
+    const int size = now().size(), most = go::most_fixed_handicap(size);
+    if (most < 2) engine::fail("a board of size {} has no fixed handicap", size);
+    const auto points = go::fixed_handicap(size, words.whole("the handicap", 2, most));
+    start_handicap(points);
     return points_text(points);
 }
 
 std::string Gtp::place_free_handicap(Words& words) {
     if (!board_empty()) engine::fail("the board is not empty");
-    const int most = now().size() * now().size() - 1;
-    const auto points = go::free_handicap(now().size(), words.whole("the handicap", 2, most));
-    auto game = emptied(now(), now().size());
-    for (const auto& point : points) game.set_up(point, Player::first);
-    game.set_handicap(static_cast<int>(points.size()));
-    game.set_to_play(Player::second);
-    restart(game);
+    const int size = now().size();
+    const auto points = go::free_handicap(size, words.whole("the handicap", 2, size * size - 1));
+    start_handicap(points);
     return points_text(points);
 }
 
 std::string Gtp::set_free_handicap(Words& words) {
     if (!board_empty()) engine::fail("the board is not empty");
-    auto game = emptied(now(), now().size());
-    int stones = 0;
-    while (!words.empty()) {
-        const auto point = vertex_of(words.take("the vertex"));
-        if (game.at(point)) engine::fail("{} is named twice", go::vertex(point));
-        game.set_up(point, Player::first);
-        ++stones;
-    }
-    if (stones < 2 || !game.every_chain_has_liberty())
-        engine::fail("a handicap has at least 2 stones, each with a liberty");
-    game.set_handicap(stones);
-    game.set_to_play(Player::second);
-    restart(game);
+    std::vector<go::Point> points;
+    while (!words.empty()) points.push_back(vertex_of(words.take("the vertex")));
+    start_handicap(points);
     return "";
 }
 
 std::string Gtp::query_handicap(Words&) { return std::to_string(now().handicap()); }
 
-std::string Gtp::set_position(Words& words) {
+// A board like the present one with only the stones that `words` name.
+go::Go Gtp::with_stones(Words& words) const {
     auto game = emptied(now(), now().size());
     while (!words.empty()) {
         const auto player = words.colour();
@@ -206,7 +224,17 @@ std::string Gtp::set_position(Words& words) {
         game.set_up(point, player);
     }
     if (!game.every_chain_has_liberty()) engine::fail("a chain has no liberty");
-    restart(game);
+    return game;
+}
+
+std::string Gtp::set_position(Words& words) {
+    restart(with_stones(words));
+    return "";
+}
+
+std::string Gtp::set_up(Words& words) {
+    if (!board_empty()) engine::fail("the board is not empty");
+    restart(with_stones(words));
     return "";
 }
 
@@ -291,16 +319,7 @@ std::string Gtp::load_sgf(Words& words) {
             path.resize(blank);
         }
     }
-    const auto text = go::sgf::read_file(path);
-    const auto record = [&] {
-        try {
-            const auto tree = go::sgf::GameReader(text).next();
-            if (!tree) engine::fail("no game in it");
-            return go::sgf::main_line(*tree, most);
-        } catch (const engine::Error& error) {
-            engine::fail("{}: {}", path, error.what());
-        }
-    }();
+    const auto record = read_record(path, most);
     restart(record.start);
     for (const auto& turn : record.turns) play(turn.player, turn.move);
     session_.replace_last(record.end);
@@ -315,7 +334,8 @@ std::string Gtp::result_text() {
 }
 
 std::string Gtp::print_sgf(Words& words) {
-    const auto tree = go::sgf::tree_of(session_.states().front(), turns_, result_text());
+    const std::vector<go::sgf::Property> facts{{"AP", {"sanban:" SANBAN_VERSION}}};
+    const auto tree = go::sgf::tree_of(session_.states().front(), turns_, result_text(), facts);
     auto text = go::sgf::to_text(tree);
     while (text.ends_with('\n')) text.pop_back();
     const auto path = words.rest();

@@ -31,6 +31,8 @@ int run_gtp_from(Arguments arguments, std::string_view first_line) {
         ->capture_default_str();
     app.add_option("--simulations", settings.simulations, "a move; 0: as time allows")
         ->capture_default_str();
+    app.add_option("--visits", settings.visits, "a move, earlier ones counted; 0: as time allows")
+        ->capture_default_str();
     app.add_option("--resign", settings.resign_below, "winrate at which to resign; 0: never")
         ->check(CLI::Range(0.0, 0.5))
         ->capture_default_str();

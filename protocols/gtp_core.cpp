@@ -25,18 +25,12 @@ T within(std::string_view name, std::string_view text, T least, T most) {
     return value;
 }
 
-bool truth(std::string_view name, std::string_view text) {
-    if (text == "true" || text == "1") return true;
-    if (text == "false" || text == "0") return false;
-    engine::fail("{} must be true or false, not {}", name, text);
-}
-
 constexpr std::uint64_t most_visits = 1'000'000'000'000;
 
 constexpr Parameter parameters[] = {
-    {"maxVisits", "Visits", [](const GtpSettings& s) { return fmt::format("{}", s.simulations); },
+    {"maxVisits", "Visits", [](const GtpSettings& s) { return fmt::format("{}", s.visits); },
      [](GtpSettings& s, std::string_view text) {
-         s.simulations = within<std::uint64_t>("maxVisits", text, 0, most_visits);
+         s.visits = within<std::uint64_t>("maxVisits", text, 0, most_visits);
      }},
     {"maxPlayouts", "Playouts",
      [](const GtpSettings& s) { return fmt::format("{}", s.simulations); },
@@ -49,7 +43,9 @@ constexpr Parameter parameters[] = {
      }},
     {"ponderingEnabled", "Pondering",
      [](const GtpSettings& s) { return std::string(s.ponder ? "true" : "false"); },
-     [](GtpSettings& s, std::string_view text) { s.ponder = truth("ponderingEnabled", text); }},
+     [](GtpSettings& s, std::string_view text) {
+         s.ponder = Words(text).yes_or_no("ponderingEnabled");
+     }},
     {"resignThreshold", "",
      [](const GtpSettings& s) { return fmt::format("{:g}", 2 * s.resign_below - 1); },
      [](GtpSettings& s, std::string_view text) {
@@ -81,7 +77,11 @@ std::string Gtp::protocol_version(Words&) { return "2"; }
 std::string Gtp::name(Words&) { return settings_.name; }
 std::string Gtp::version(Words&) { return SANBAN_VERSION; }
 std::string Gtp::nothing(Words&) { return ""; }
-std::string Gtp::stop(Words&) { return ""; }
+
+std::string Gtp::stop(Words&) {
+    ponder_on_.reset();
+    return "";
+}
 
 std::string Gtp::known_command(Words& words) {
     return !words.empty() && find(words.take("the command")) ? "true" : "false";
@@ -116,8 +116,15 @@ std::string Gtp::quit(Words&) {
 
 std::string Gtp::clear_cache(Words&) {
     session_.new_game();
+    judge_.forget();
     forget();
     return "";
+}
+
+// What the views show of the last search.
+void Gtp::forget() {
+    last_picture_ = {};
+    last_root_.reset();
 }
 
 std::string Gtp::cpu_time(Words&) {
@@ -136,13 +143,9 @@ std::string Gtp::chat(Words& words) {
 std::string Gtp::random_seed(Words&) { return fmt::format("{}", session_.params().seed); }
 
 std::string Gtp::set_random_seed(Words& words) {
-    auto params = session_.params();
-    engine::set_option(params, "seed", words.take("the seed"));
-    session_.set_params(params);
+    change_params("seed", words.take("the seed"));
     // The same seed again starts the same random numbers again.
-    session_.new_game();
-    forget();
-    return "";
+    return clear_cache(words);
 }
 
 std::string Gtp::memory_report(Words&) {
@@ -160,12 +163,9 @@ std::string Gtp::set_option(Words& words) {
     value = words.rest();
     for (const auto& parameter : parameters)
         if (parameter.lz == name && !name.empty()) return parameter.write(settings_, value), "";
-    auto params = session_.params();
-    if (name == "Lagbuffer")
-        params.lag_ms = 10 * within<int>(name, value, 0, 1000);  // in centiseconds
-    else
-        engine::set_option(params, row_of(name), value);
-    session_.set_params(params);
+    // In centiseconds.
+    if (name == "Lagbuffer") value = std::to_string(10 * within<int>(name, value, 0, 1000));
+    change_params(row_of(name), value);
     return "";
 }
 
@@ -200,10 +200,33 @@ std::string Gtp::set_param(Words& words) {
     const auto name = words.take("the name"), value = words.take("the value");
     for (const auto& parameter : parameters)
         if (parameter.kata == name) return parameter.write(settings_, value), "";
-    auto params = session_.params();
-    engine::set_option(params, row_of(name), value);
-    session_.set_params(params);
+    change_params(row_of(name), value);
     return "";
+}
+
+std::string Gtp::set_params(Words& words) {
+    const auto json = nlohmann::json::parse(words.rest(), nullptr, false);
+    if (!json.is_object()) engine::fail("not a JSON object: {}", words.rest().substr(0, 60));
+    const auto settings = settings_;
+    const auto params = session_.params();
+    try {
+        for (const auto& [name, value] : json.items()) {
+            Words pair(name + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
+            set_param(pair);
+        }
+    } catch (const engine::Error&) {
+        settings_ = settings;
+        session_.set_params(params);
+        throw;
+    }
+    return "";
+}
+
+void Gtp::change_params(std::string_view row, std::string_view value) {
+    auto params = session_.params();
+    engine::set_option(params, row, value);
+    session_.set_params(params);
+    judge_.set_params(params);
 }
 
 }  // namespace protocols

@@ -1,5 +1,6 @@
 #include "protocols/gtp_input.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -54,6 +55,12 @@ bool InputAhead::pop(Line& line) {
     shared_->lines.pop_front();
     shared_->changed.notify_all();
     return true;
+}
+
+bool InputAhead::waiting(const std::function<bool(std::string_view)>& wanted) const {
+    const std::lock_guard lock(shared_->mutex);
+    return std::any_of(shared_->lines.begin(), shared_->lines.end(),
+                       [&](const Line& line) { return wanted(line.text); });
 }
 
 }  // namespace protocols

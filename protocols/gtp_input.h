@@ -24,6 +24,8 @@ class InputAhead {
 
     // Waits for the next line; false at the end of input.
     bool pop(Line& line);
+    // Whether a line that `wanted` is true of has come and not been popped.
+    bool waiting(const std::function<bool(std::string_view)>& wanted) const;
 
    private:
     // Outlives this object in the reading thread, which may be blocked in a read for ever.

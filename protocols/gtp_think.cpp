@@ -1,8 +1,8 @@
-// GTP commands that think: moves, analyses, scores.
+// GTP commands that think: moves and scores.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 
 #include "protocols/gtp.h"
 
@@ -13,226 +13,168 @@ namespace {
 using engine::Player;
 using search::Analysis;
 using search::Milliseconds;
+using Clock = std::chrono::steady_clock;
 
-// A reading by rollouts alone, when no search has looked at the position.
-constexpr std::uint64_t reading_simulations = 2000;
-// A search of so many says enough about the owners of the points.
-constexpr std::uint64_t enough_simulations = 200;
-constexpr Milliseconds time_to_read{3000};
 // Moves in a row below the threshold before the engine resigns, and visits that make one count.
 constexpr int hopeless_enough = 3;
-constexpr std::uint64_t visits_to_resign = 1000;
+constexpr std::uint64_t visits_to_resign = 500;
 
-bool is_restricted(const search::Limits& limits) {
-    return !limits.only.empty() || !limits.avoid.empty();
+Milliseconds since(Clock::time_point start) {
+    return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
 }
 
-double winrate(float value) { return (value + 1) / 2; }
+// What is left after `used` of the move's own time.
+search::TimeLeft reduced(search::TimeLeft left, Milliseconds used) {
+    auto& running = left.in_overtime() ? left.period : left.main;
+    running = std::max(running - used, Milliseconds(1));
+    return left;
+}
+
+// Where the move is known, only what is there to be shown of it is searched.
+void shorten(search::Limits& limits) {
+    limits.simulations = std::min<std::uint64_t>(limits.simulations.value_or(500), 500);
+    limits.time = Milliseconds(100);
+    limits.clock.reset();
+}
+
+// With so few moves played a game is not given up, however it stands; a handicap makes White
+// look lost for longer.
+bool too_early_to_resign(const go::Go& game) {
+    return game.move_count() < game.size() * game.size() / (game.handicap() > 1 ? 3 : 8);
+}
+
 }  // namespace
 
-search::Limits Gtp::move_limits(Player player) const {
+// The position to search: as it is, or without what ended the game in it.
+go::Go Gtp::root_for(Player player) const {
+    auto root = now().outcome() == engine::Outcome::ongoing ? now() : without_history(now());
+    root.set_to_play(player);
+    return root;
+}
+
+search::Limits Gtp::move_limits(Player player) {
     search::Limits limits;
     if (settings_.simulations > 0) limits.simulations = settings_.simulations;
-    const auto& left = clock_.left(player);
+    if (settings_.visits > 0) {
+        session_.searcher().set_position(root_for(player));
+        const auto kept = session_.searcher().analysis(0).visits;
+        const auto missing = settings_.visits > kept ? settings_.visits - kept : 1;
+        limits.simulations = std::min(limits.simulations.value_or(missing), missing);
+    }
+    const auto left = clock_.for_a_move(player);
     if (!left.control.unlimited)
         limits.clock = left;
-    else if (settings_.simulations == 0)
+    else if (!limits.simulations)
         limits.time = Milliseconds(static_cast<std::int64_t>(settings_.seconds * 1000));
     return limits;
 }
 
-// Blocks until the think is over or, as `purpose` allows, cut short by a line of input.
-Analysis Gtp::think(const AnalysisRequest& request, Thinking purpose) {
-    go::Go game = now();
-    game.set_to_play(request.player);
-    cut_ = false;
-    thinking_ = purpose;
-    session_.searcher().set_position(game);
-    session_.searcher().start(
-        request.limits, [&](const Analysis& picture) { print_analysis(picture, request); }, {});
-    if (cut_) session_.interrupt();
-    session_.wait();
-    thinking_ = Thinking::no;
-    auto picture = session_.searcher().analysis();
-    if (!picture.fault.empty()) engine::fail("the search broke off: {}", picture.fault);
-    remember(picture, request.player, is_restricted(request.limits));
-    return picture;
-}
-
-void Gtp::remember(const Analysis& picture, Player player, bool restricted) {
-    last_picture_ = picture;
-    last_player_ = player;
-    if (!restricted && !picture.owners.empty() && picture.simulations >= enough_simulations)
-        remember_owners(picture, player);
-}
-
-// Owners are about the stones: a pass, another mover or other rules leave them true.
-void Gtp::remember_owners(const Analysis& picture, Player player) {
-    owners_ = picture.owners;
-    const auto size = static_cast<std::size_t>(now().size());
-    owners_.resize(size * size);
-    if (player == Player::second)
-        for (float& owner : owners_) owner = -owner;
-    read_ = now().board().stones();
-}
-
-bool Gtp::knows_owners() const { return !owners_.empty() && read_ == now().board().stones(); }
-
-void Gtp::forget() {
-    last_picture_ = {};
-    owners_.clear();
-}
-
-const Reading& Gtp::reading() {
-    if (!knows_owners()) read_by_rollouts();
-    return reading_.emplace(now(), owners_);
-}
-
-void Gtp::read_by_rollouts() {
-    search::Limits limits;
-    limits.simulations = reading_simulations;
-    // A finished game has nothing to search: read the position before the passes.
-    go::Go game(now().size(), now().komi(), now().rules());
-    for (int y = 0; y < game.size(); ++y)
-        for (int x = 0; x < game.size(); ++x)
-            if (const auto stone = now().at({x, y})) game.set_up({x, y}, stone);
-    game.set_to_play(now().to_play());
-    session_.searcher().set_position(game);
-    remember_owners(session_.searcher().think(limits), game.to_play());
-}
-
-// A running clock may leave no time for a reading beside the search.
-bool Gtp::may_read(Player player) const {
-    const auto& left = clock_.left(player);
-    return knows_owners() || left.control.unlimited || left.longest_move() > time_to_read;
-}
-
-// The liberties of the opponent's dead stones that `player` may play on.
-std::vector<go::Move> Gtp::moves_against_dead(Player player) {
-    std::vector<go::Move> moves;
-    if (!may_read(player)) return moves;
-    go::Go game = now();
-    game.set_to_play(player);
-    for (const auto& point : liberties_of(game, reading().stones(go::Status::dead), ~player))
-        if (const auto move = game.move_at(point); game.legal(move)) moves.push_back(move);
-    return moves;
-}
-
-// The vertex to answer: the search's best move, a pass when nothing is left to gain, or `resign`.
-std::string Gtp::choose(const Analysis& picture, Player player, bool clean_up) {
-    if (picture.moves.empty()) return "pass";
-    go::Go game = now();
-    game.set_to_play(player);
-    const auto& best = picture.moves.front();
-    const bool hopeless = winrate(best.value) < settings_.resign_below &&
-                          picture.visits >= visits_to_resign && !clean_up;
-    int& hopeless_moves = hopeless_moves_[static_cast<std::size_t>(player)];
-    hopeless_moves = hopeless ? hopeless_moves + 1 : 0;
-    if (hopeless_moves >= hopeless_enough) return "resign";
-    const bool may_pass =
-        std::any_of(picture.moves.begin(), picture.moves.end(),
-                    [](const search::MoveAnalysis& move) { return move.move == go::Go::pass; });
-    if (may_pass && may_read(player) && should_pass(game, reading())) return "pass";
-    return game.move_to_text(best.move);
-}
-
-std::string Gtp::move_now(Player player, bool play_it, bool clean_up) {
-    AnalysisRequest request;
-    request.player = player;
-    request.limits = move_limits(player);
-    if (clean_up) request.limits.only = moves_against_dead(player);
-    const auto start = std::chrono::steady_clock::now();
-    const auto picture = think(request, Thinking::to_move);
-    auto text = choose(picture, player, clean_up);
-    if (!play_it) return text;
-    clock_.spend(
-        player, std::chrono::duration_cast<Milliseconds>(std::chrono::steady_clock::now() - start));
-    play_checked(player, text);
-    return text;
-}
-
-std::string Gtp::genmove(Words& words) { return move_now(words.colour(), true, false); }
-std::string Gtp::reg_genmove(Words& words) { return move_now(words.colour(), false, false); }
-std::string Gtp::cleanup(Words& words) { return move_now(words.colour(), true, true); }
-
-void Gtp::ponder() {
-    if (!result_.empty() || now().consecutive_passes() >= 2) return;
-    session_.searcher().set_position(now());
-    session_.searcher().start({}, {}, {});
-}
-
-std::string Gtp::analyze(Words& words, bool kata, bool floats) {
-    const auto request = parse_analysis(words, kata, floats);
-    go::Go game = now();
-    game.set_to_play(request.player);
-    answered_ = true;
-    out_.line(fmt::format("={}", id_));
-    restricted_ = is_restricted(request.limits);
-    thinking_ = Thinking::analysing;
-    session_.searcher().set_position(game);
-    session_.searcher().start(
-        request.limits,
-        [this, request](const Analysis& picture) { print_analysis(picture, request); }, {});
-    return "";
-}
-
-std::string Gtp::lz_analyze(Words& words) { return analyze(words, false, false); }
-std::string Gtp::kata_analyze(Words& words) { return analyze(words, true, true); }
-std::string Gtp::any_analyze(Words& words) { return analyze(words, false, true); }
-
-// A move's own limits, with the reports and restrictions asked for.
-search::Limits Gtp::limits_of(const AnalysisRequest& request) const {
-    auto limits = move_limits(request.player);
-    limits.report_every = request.limits.report_every;
-    limits.only = request.limits.only;
-    limits.avoid = request.limits.avoid;
-    return limits;
-}
-
-std::string Gtp::genmove_analyze(Words& words, bool kata, bool floats) {
-    auto request = parse_analysis(words, kata, floats);
-    request.limits = limits_of(request);
-    answered_ = true;
-    out_.line(fmt::format("={}", id_));
-    const auto start = std::chrono::steady_clock::now();
-    const auto picture = think(request, Thinking::to_move);
-    print_analysis(picture, request);
-    const auto text = choose(picture, request.player, false);
-    clock_.spend(request.player, std::chrono::duration_cast<Milliseconds>(
-                                     std::chrono::steady_clock::now() - start));
-    play_checked(request.player, text);
-    out_.line(fmt::format("play {}\n", text));
-    return "";
-}
-
-std::string Gtp::lz_genmove_analyze(Words& words) { return genmove_analyze(words, false, false); }
-std::string Gtp::kata_genmove_analyze(Words& words) { return genmove_analyze(words, true, true); }
-std::string Gtp::any_genmove_analyze(Words& words) { return genmove_analyze(words, false, true); }
-
-std::string Gtp::search_analyze(Words& words, bool cancellable) {
-    auto request = parse_analysis(words, true, true);
-    request.limits = limits_of(request);
-    answered_ = true;
-    out_.line(fmt::format("={}", id_));
-    const auto picture = think(request, cancellable ? Thinking::cancellable : Thinking::to_move);
-    print_analysis(picture, request);
-    const bool cancelled = cancellable && cut_;
-    out_.line(
-        fmt::format("play {}\n", cancelled ? "cancelled" : choose(picture, request.player, false)));
-    return "";
-}
-
-std::string Gtp::kata_search_analyze(Words& words) { return search_analyze(words, false); }
-std::string Gtp::kata_search_cancellable(Words& words) { return search_analyze(words, true); }
-
-std::string Gtp::top_moves(Words&) {
-    std::string text;
-    for (const auto& move : last_picture_.moves) {
-        if (move.visits == 0 || text.size() > 200) break;
-        text += fmt::format("{}{} {:.3f}", text.empty() ? "" : " ", now().move_to_text(move.move),
-                            winrate(move.value));
+// Blocks until the think is over or, as `cut` allows, a line of input cuts it short.
+Analysis Gtp::think(const go::Go& root, const search::Limits& limits,
+                    const AnalysisRequest* reports, Cut cut) {
+    auto& searcher = session_.searcher();
+    searcher.set_position(root);
+    searcher.start(limits, reports ? printer(*reports) : Session::Report(), {});
+    {
+        const std::lock_guard lock(cut_mutex_);
+        cut_ = cut;
+        was_cut_ = false;
     }
+    if (input_) input_->waiting([this](std::string_view line) { return arrived(line), false; });
+    session_.wait();
+    {
+        const std::lock_guard lock(cut_mutex_);
+        cut_ = Cut::by_none;
+    }
+    remember(root);
+    if (!last_picture_.fault.empty()) engine::fail("the search broke off: {}", last_picture_.fault);
+    return last_picture_;
+}
+
+void Gtp::remember(const go::Go& root) {
+    last_picture_ = session_.searcher().analysis();
+    last_root_ = root;
+}
+
+// How long the end of the game may be read before a move on the clock.
+Milliseconds Gtp::reading_time(Player player) const {
+    return std::clamp(clock_.left(player).longest_move() / 16, Milliseconds(10),
+                      Milliseconds(2000));
+}
+
+Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
+    const bool last_word = game.consecutive_passes() > 0 || clean_up;
+    if (!last_word && !judge_.looks_over(game)) return {};
+    const bool timed = !clock_.left(game.to_play()).control.unlimited;
+    const auto reading =
+        judge_.read(game, timed ? std::optional(reading_time(game.to_play())) : std::nullopt);
+    if (judge_.hasty()) return {};
+    return ending(game, reading, clean_up);
+}
+
+// The vertex to answer: a pass when nothing is left to gain, else the search's best move, or
+// `resign`.
+std::string Gtp::choose(const Errand& errand) {
+    const auto start = Clock::now();
+    go::Go game = now();
+    game.set_to_play(errand.player);
+    auto limits = move_limits(errand.player);
+    if (errand.reports) {
+        limits.report_every = errand.reports->every;
+        limits.only = errand.reports->only;
+        limits.avoid = errand.reports->avoid;
+    }
+    const bool restricted = !limits.only.empty() || !limits.avoid.empty();
+    const auto end = restricted ? Ending{} : read_ending(game, errand.cleans_up);
+    if (end.pass) shorten(limits);
+    limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());
+    if (limits.clock) limits.clock = reduced(*limits.clock, since(start));
+    const auto picture = think(root_for(errand.player), limits, errand.reports, errand.cut);
+    if (errand.reports) printer (*errand.reports)(picture);
+    return end.pass ? "pass" : best_move(picture, errand);
+}
+
+std::string Gtp::best_move(const Analysis& picture, const Errand& errand) {
+    go::Go game = now();
+    game.set_to_play(errand.player);
+    // The search may have looked at a board without history: superko is asked for here.
+    const auto best =
+        std::find_if(picture.moves.begin(), picture.moves.end(),
+                     [&](const search::MoveAnalysis& move) { return game.legal(move.move); });
+    if (best == picture.moves.end()) return "pass";
+    const bool hopeless = winrate(best->value) < settings_.resign_below &&
+                          picture.visits >= visits_to_resign && !errand.cleans_up &&
+                          !too_early_to_resign(game);
+    int& hopeless_moves = hopeless_moves_[static_cast<std::size_t>(errand.player)];
+    if (errand.plays) hopeless_moves = hopeless ? hopeless_moves + 1 : 0;
+    if (hopeless && hopeless_moves >= hopeless_enough) return "resign";
+    return game.move_to_text(best->move);
+}
+
+std::string Gtp::genmove(const Errand& errand) {
+    if (!result_.empty() && errand.plays) engine::fail("the game is over: {}", result_);
+    const auto start = Clock::now();
+    auto text = choose(errand);
+    if (!errand.plays) return text;
+    clock_.spend(errand.player, since(start));
+    play_checked(errand.player, text);
+    if (result_.empty()) ponder_on_ = now();
     return text;
+}
+
+std::string Gtp::genmove_command(Words& words) { return genmove({words.colour()}); }
+std::string Gtp::reg_genmove(Words& words) { return genmove({words.colour(), false}); }
+std::string Gtp::cleanup(Words& words) { return genmove({words.colour(), true, true}); }
+
+std::string Gtp::benchmark(Words& words) {
+    search::Limits limits;
+    limits.simulations = static_cast<std::uint64_t>(words.whole("the visits", 1, 1'000'000'000));
+    session_.new_game();
+    const auto picture = think(root_for(now().to_play()), limits, nullptr, Cut::by_interrupt);
+    const auto time = std::max<double>(static_cast<double>(picture.elapsed.count()), 1);
+    return fmt::format(
+        "{} simulations in {:.3f} s, {:.0f} a second, {} threads", picture.simulations, time / 1000,
+        1000 * static_cast<double>(picture.simulations) / time, session_.params().threads);
 }
 
 std::string Gtp::final_score(Words&) {
@@ -241,7 +183,7 @@ std::string Gtp::final_score(Words&) {
     return reading().score().text();
 }
 
-std::string Gtp::estimate_score(Words&) { return reading().score().text(); }
+std::string Gtp::estimate_score(Words&) { return reading().played_out().text(); }
 
 std::string Gtp::final_status_list(Words& words) {
     const auto wanted = words.take("the status");
@@ -260,9 +202,9 @@ std::string Gtp::final_status(Words& words) {
         case go::Status::seki:
             return "seki";
         case go::Status::dead:
-            return "dead";
+            break;
     }
-    return "";
+    return "dead";
 }
 
 }  // namespace protocols

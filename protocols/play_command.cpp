@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "engine/base/files.h"
@@ -13,7 +14,7 @@
 #include "engine/shogi/rollouts.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
-#include "protocols/go_endgame.h"
+#include "protocols/go_judge.h"
 #include "protocols/gtp.h"
 #include "protocols/terminal.h"
 #include "protocols/uci.h"
@@ -30,13 +31,18 @@ struct PlayFlags {
     double komi = 7.5;
 };
 
-std::vector<float> black_owners(const search::Analysis& picture, const go::Go& game) {
-    auto owners = picture.owners;
-    const auto size = static_cast<std::size_t>(game.size());
-    owners.resize(size * size);
-    if (game.to_play() == engine::Player::second)
-        for (float& owner : owners) owner = -owner;
-    return owners;
+// What to play after a search: nothing but a pass once the game is settled.
+std::string choose_go_move(const go::Go& game, GoJudge& judge, const search::Analysis& picture) {
+    const auto end = judge.looks_over(game) || game.consecutive_passes() > 0
+                         ? ending(game, judge.read(game), false)
+                         : Ending{};
+    if (end.pass) return "pass";
+    const auto wanted = [&](const search::MoveAnalysis& move) {
+        return end.only.empty() ||
+               std::find(end.only.begin(), end.only.end(), move.move) != end.only.end();
+    };
+    const auto best = std::find_if(picture.moves.begin(), picture.moves.end(), wanted);
+    return game.move_to_text(best == picture.moves.end() ? go::Go::pass : best->move);
 }
 
 void save_sgf(const GameSession<go::Go>& session, const std::string& result,
@@ -52,13 +58,12 @@ int play_go(const PlayFlags& flags) {
     GameSession<go::Go> session(flags.params);
     session.restart(
         go::Go(flags.size, go::Komi::from_points(flags.komi), go::rules_from_text(flags.rules)));
-    // The last search's owners, by which dead stones are known when both have passed.
-    std::vector<float> owners(static_cast<std::size_t>(flags.size * flags.size));
+    GoJudge judge(flags.params);
     TerminalView view;
     view.board = [&] { return go::diagram(session.now()); };
     view.result = [&] {
         if (session.now().no_result()) return std::string("no result, by repetition");
-        const Reading reading(session.now(), owners);
+        const auto reading = judge.read(session.now());
         auto text = reading.score().text();
         if (!reading.dead().empty())
             text += fmt::format(" ({} dead stones)", reading.dead().size());
@@ -66,12 +71,10 @@ int play_go(const PlayFlags& flags) {
     };
     view.save = [&](const std::string& path) {
         const bool over = session.now().consecutive_passes() >= 2;
-        save_sgf(session, over ? Reading(session.now(), owners).score().text() : "", path);
+        save_sgf(session, over ? judge.read(session.now()).score().text() : "", path);
     };
     view.choose = [&](const search::Analysis& picture) {
-        owners = black_owners(picture, session.now());
-        const bool pass = should_pass(session.now(), Reading(session.now(), owners));
-        return pass ? std::string("pass") : session.move_to_text(picture.moves.front().move);
+        return choose_go_move(session.now(), judge, picture);
     };
     view.first_name = "Black (X)";
     view.second_name = "White (O)";

@@ -53,10 +53,13 @@ const std::string integers = "info move " + vertex +
                              "[0-9]+ pv " +
                              vertex + "(?: " + vertex + ")*";
 const std::string number = "-?[0-9]+\\.[0-9]+";
-const std::string floats = "info move " + vertex + " visits [0-9]+ winrate " + number + " prior " +
-                           number + " lcb " + number + "(?: utility " + number + " utilityLcb " +
-                           number + ")? order [0-9]+(?: pvVisits(?: [0-9]+)+)? pv " + vertex +
-                           "(?: " + vertex + ")*";
+const std::string pv = " order [0-9]+ pv " + vertex + "(?: " + vertex + ")*";
+const std::string values = " winrate " + number + " prior " + number + " lcb " + number;
+const std::string floats = "info move " + vertex + " visits [0-9]+" + values + pv;
+// KataGo's order of fields.
+const std::string kata = "info move " + vertex + " visits [0-9]+ edgeVisits [0-9]+ utility " +
+                         number + values + " utilityLcb " + number + pv +
+                         "(?: pvVisits(?: [0-9]+)+)?";
 
 void expect_reports(const std::string& text, const std::string& id, const std::string& line) {
     const auto lines = lines_of(text);
@@ -87,9 +90,9 @@ TEST(GtpAnalysis, KataFormAddsRootAndOwnership) {
         " rootInfo visits [0-9]+ utility " + number + " winrate " + number + " scoreLead " + number;
     const auto owners = " ownership(?: " + number + "){25}";
     expect_reports(guest.analyse("kata-analyze 1 rootInfo true ownership true maxmoves 2"), "",
-                   floats + "(?: " + floats + ")?" + root + owners);
+                   kata + "(?: " + kata + ")?" + root + owners);
     expect_reports(guest.analyse("kata-analyze 1 pvVisits true ownership false maxmoves 1"), "",
-                   floats);
+                   kata);
     EXPECT_TRUE(has(guest.analyse("kata-analyze 1 pvVisits true maxmoves 1"), " pvVisits "));
 }
 
@@ -157,7 +160,9 @@ TEST(GtpAnalysis, GenmoveFormsEndWithThePlay) {
         const auto lines = lines_of(guest.raw("3 " + name + " b 1 allow b C3 1"));
         ASSERT_GE(lines.size(), 4U);
         EXPECT_EQ(lines[0], "=3");
-        EXPECT_TRUE(std::regex_match(lines[1], std::regex(name[0] == 'l' ? integers : floats)))
+        EXPECT_TRUE(std::regex_match(lines[1], std::regex(name[0] == 'l'   ? integers
+                                                          : name[0] == 'k' ? kata
+                                                                           : floats)))
             << lines[1];
         EXPECT_EQ(lines[lines.size() - 2], "play C3");
         EXPECT_EQ(lines.back(), "");
