@@ -6,6 +6,8 @@ namespace protocols {
 
 namespace {
 
+using search::Milliseconds;
+
 constexpr std::uint64_t simulations = 3000, fewest_simulations = 500, quick_simulations = 200;
 
 search::SearchParams small(search::SearchParams params) {
@@ -43,7 +45,7 @@ void GoJudge::set_params(const search::SearchParams& params) {
     searcher_.set_params(small(params));
 }
 
-Reading GoJudge::read(const go::Go& game, std::optional<search::Milliseconds> time) {
+Reading GoJudge::read(const go::Go& game, std::optional<Milliseconds> time) {
     const auto bare = by_area(game);
     if (!read_ || hasty_ || *read_ != bare) {
         search::Limits limits;
@@ -56,9 +58,10 @@ Reading GoJudge::read(const go::Go& game, std::optional<search::Milliseconds> ti
     return {game, looks_};
 }
 
-bool GoJudge::looks_over(const go::Go& game) {
+bool GoJudge::looks_over(const go::Go& game, std::optional<Milliseconds> time) {
     search::Limits limits;
     limits.simulations = quick_simulations;
+    if (time) limits.time = *time / 2;
     const bool hasty = std::exchange(hasty_, false);
     const Reading reading(game, look(by_area(game), limits));
     hasty_ = hasty;

@@ -21,7 +21,7 @@ class GoJudge {
     // give one reading, unless time runs out.
     Reading read(const go::Go& game, std::optional<search::Milliseconds> time = {});
     // A quick look, some milliseconds long: whether the game may be at its end.
-    bool looks_over(const go::Go& game);
+    bool looks_over(const go::Go& game, std::optional<search::Milliseconds> time = {});
     // Whether the last reading had too little time to be relied on.
     bool hasty() const { return hasty_; }
     void set_params(const search::SearchParams& params);

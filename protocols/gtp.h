@@ -186,7 +186,7 @@ class Gtp {
     bool board_empty() const;
 
     search::Limits move_limits(engine::Player player);
-    search::Milliseconds reading_time(engine::Player player) const;
+    std::optional<search::Milliseconds> reading_time(engine::Player player) const;
     go::Go root_for(engine::Player player) const;
     Ending read_ending(const go::Go& game, bool clean_up);
     search::Analysis think(const go::Go& root, const search::Limits& limits,

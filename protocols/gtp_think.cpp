@@ -96,20 +96,21 @@ void Gtp::remember(const go::Go& root) {
     last_root_ = root;
 }
 
-// How long the end of the game may be read before a move on the clock.
-Milliseconds Gtp::reading_time(Player player) const {
-    return std::clamp(clock_.left(player).longest_move() / 16, Milliseconds(10),
-                      Milliseconds(2000));
+// How long the end of the game may be read before a move; without a clock as long as it takes.
+std::optional<Milliseconds> Gtp::reading_time(Player player) const {
+    const auto& left = clock_.left(player);
+    if (left.control.unlimited) return std::nullopt;
+    return std::min(left.longest_move() / 32, Milliseconds(1000));
 }
 
 Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
+    constexpr Milliseconds too_short{20};
+    const auto time = reading_time(game.to_play());
+    if (time && *time < too_short) return {};
     const bool last_word = game.consecutive_passes() > 0 || clean_up;
-    if (!last_word && !judge_.looks_over(game)) return {};
-    const bool timed = !clock_.left(game.to_play()).control.unlimited;
-    const auto reading =
-        judge_.read(game, timed ? std::optional(reading_time(game.to_play())) : std::nullopt);
-    if (judge_.hasty()) return {};
-    return ending(game, reading, clean_up);
+    if (!last_word && !judge_.looks_over(game, time)) return {};
+    const auto reading = judge_.read(game, time);
+    return judge_.hasty() ? Ending{} : ending(game, reading, clean_up);
 }
 
 // The vertex to answer: a pass when nothing is left to gain, else the search's best move, or
