@@ -134,6 +134,8 @@ std::vector<go::Move> filling_moves(const Go& game, const Reading& reading) {
 struct Ownership {
     float least, most;
     float mean() const { return (least + most) / 2; }
+    // Neither side's, whoever moves.
+    bool open() const { return least > -doubtful && most < doubtful; }
     bool beyond_doubt() const {
         return least * most > 0 && (mean() > doubtful || mean() < -doubtful);
     }
@@ -149,6 +151,34 @@ Ownership ownership(const Go& game, const std::vector<Point>& points, Player own
     };
     const float first = mean(looks[0]), second = mean(looks[1]);
     return {std::min(first, second), std::max(first, second)};
+}
+
+struct Chain {
+    std::vector<Point> stones;
+    Ownership fate;
+};
+
+// The games played out do not see a seki: there either side may fall. Chains that are nobody's,
+// whoever moves, and touch such chains of the other colour, lock each other in.
+std::vector<bool> locked_chains(const Go& game, const std::vector<Chain>& chains) {
+    auto open = none_seen(game);
+    for (const auto& [stones, fate] : chains)
+        for (const Point point : stones) open[order(game, point)] = fate.open();
+    const auto is_open = [&](Point point) { return game.at(point) && open[order(game, point)]; };
+    const auto is_liberty = [&](Point point) {
+        return !game.at(point) && any_beside(game, {point}, is_open);
+    };
+    std::vector<bool> locked;
+    for (const auto& [stones, fate] : chains) {
+        const auto colour = game.at(stones.front());
+        const auto is_other = [&](Point point) {
+            return is_open(point) && game.at(point) != colour;
+        };
+        const auto cluster = region(
+            game, stones.front(), [&](Point point) { return is_open(point) || is_liberty(point); });
+        locked.push_back(fate.open() && std::any_of(cluster.begin(), cluster.end(), is_other));
+    }
+    return locked;
 }
 
 double share(Player player, float black_value) {
@@ -177,11 +207,17 @@ Reading::Reading(const Go& game, const Looks& looks)
 }
 
 void Reading::judge_chains(const Looks& looks) {
-    for_each_chain(game_, [&](const std::vector<Point>& chain) {
-        const auto fate = ownership(game_, chain, *game_.at(chain.front()), looks);
-        if (fate.mean() < 0) doomed_.insert(doomed_.end(), chain.begin(), chain.end());
-        if (!fate.beyond_doubt()) settled_ = false;
+    std::vector<Chain> chains;
+    for_each_chain(game_, [&](const std::vector<Point>& stones) {
+        chains.push_back({stones, ownership(game_, stones, *game_.at(stones.front()), looks)});
     });
+    const auto locked = locked_chains(game_, chains);
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+        const auto& [stones, fate] = chains[i];
+        if (locked[i]) continue;
+        if (fate.mean() < 0) doomed_.insert(doomed_.end(), stones.begin(), stones.end());
+        if (!fate.beyond_doubt()) settled_ = false;
+    }
 }
 
 // Whether the games played out give each territory to whom the score does.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -17,15 +18,17 @@ using Clock = std::chrono::steady_clock;
 // The program behind two pipes.
 class Child {
    public:
-    Child() {
+    Child() : Child({"gtp", "--size", "9", "--memory", "16", "--threads", "1", "--time", "20"}) {}
+    explicit Child(std::vector<const char*> arguments) {
+        arguments.insert(arguments.begin(), "sanban");
+        arguments.push_back(nullptr);
         int in[2], out[2];
         if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0) std::abort();
         pid_ = ::fork();
         if (pid_ == 0) {
             ::dup2(in[0], 0);
             ::dup2(out[1], 1);
-            ::execl(SANBAN_EXECUTABLE, "sanban", "gtp", "--size", "9", "--memory", "16",
-                    "--threads", "1", "--time", "20", nullptr);
+            ::execv(SANBAN_EXECUTABLE, const_cast<char* const*>(arguments.data()));
             ::_exit(127);
         }
         ::close(in[0]);
@@ -156,4 +159,50 @@ TEST(GtpExecutable, AnInterruptCutsAGenmoveShort) {
     // The interrupt itself has no answer.
     child.say("name\n");
     EXPECT_EQ(child.answer(), "= sanban\n\n");
+}
+
+TEST(GtpExecutable, AnInterruptSentAtOnceIsNotLost) {
+    Child child;
+    const auto start = Clock::now();
+    child.say("genmove b\n# interrupt\nname\n");
+    EXPECT_TRUE(child.answer().starts_with("= "));
+    EXPECT_EQ(child.answer(), "= sanban\n\n");
+    child.say("kata-search_analyze_cancellable w 10\nname\n");
+    EXPECT_TRUE(child.answer().ends_with("\nplay cancelled\n\n"));
+    EXPECT_EQ(child.answer(), "= sanban\n\n");
+    EXPECT_LT(Clock::now() - start, 10s);
+}
+
+TEST(GtpExecutable, LinesBehindAGenmoveDoNotCutIt) {
+    Child child({"gtp", "--size", "9", "--memory", "16", "--threads", "1", "--time", "0.5"});
+    const auto start = Clock::now();
+    child.say("genmove b\nname\ngenmove w\nquit\n");
+    child.rest();
+    EXPECT_GE(Clock::now() - start, 1s);
+    EXPECT_EQ(child.exit_code(), 0);
+}
+
+TEST(GtpExecutable, TheFirstLineDecidesTheProtocol) {
+    Child gtp(std::vector<const char*>{});
+    gtp.say("3 name\nquit\n");
+    EXPECT_EQ(gtp.rest(), "=3 sanban\n\n= \n\n");
+    EXPECT_EQ(gtp.exit_code(), 0);
+    for (const auto& [hello, done] : {std::pair{"uci", "uciok"}, {"usi", "usiok"}}) {
+        Child child(std::vector<const char*>{});
+        child.say(std::string(hello) + "\nquit\n");
+        const auto text = child.rest();
+        EXPECT_TRUE(text.starts_with("id name sanban")) << text;
+        EXPECT_TRUE(text.ends_with(std::string(done) + "\n")) << text;
+        EXPECT_EQ(child.exit_code(), 0);
+    }
+}
+
+TEST(GtpExecutable, BadInputAndWrongUsageHaveTheirStatus) {
+    EXPECT_EQ(Child({"gtp", "--rules", "xyzzy"}).exit_code(), 1);
+    EXPECT_EQ(Child({"gtp", "--komi", "0.3"}).exit_code(), 1);
+    EXPECT_EQ(Child({"gtp", "--size", "26"}).exit_code(), 2);
+    EXPECT_EQ(Child({"gtp", "--xyzzy"}).exit_code(), 2);
+    EXPECT_EQ(Child({"xyzzy"}).exit_code(), 2);
+    EXPECT_EQ(Child({"--version"}).exit_code(), 0);
+    EXPECT_EQ(Child({"gtp", "--commands"}).exit_code(), 0);
 }
