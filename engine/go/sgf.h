@@ -9,6 +9,7 @@
 // value, a node after its variations.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -55,6 +56,9 @@ struct Tree {
 class GameReader {
    public:
     explicit GameReader(std::string_view text);
+    // A string that would be gone before the first tree is read.
+    template <std::same_as<std::string> Temporary>
+    explicit GameReader(Temporary&& text) = delete;
     GameReader(const GameReader&) = delete;
     GameReader& operator=(const GameReader&) = delete;
 

@@ -153,7 +153,8 @@ TEST(SgfText, HugeInputsEndSoon) {
     EXPECT_EQ(value("(;C[" + std::string(size, 'x') + "])", "C").size(), size);
     EXPECT_THROW(parse("(;C[" + std::string(size, '\\')), engine::Error);
     EXPECT_NE(why_refused("(" + std::string(size, ';') + ")").find("256 MiB"), std::string::npos);
-    GameReader reader("(;C[\n" + repeated("(;C[\n", 100000));
+    const auto unclosed = "(;C[\n" + repeated("(;C[\n", 100000);
+    GameReader reader(unclosed);
     EXPECT_THROW(reader.next(), engine::Error);
     EXPECT_FALSE(reader.next());
 }
