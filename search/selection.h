@@ -33,7 +33,7 @@ struct Ucb1 {
        public:
         AtNode(const Ucb1& rule, const Node& parent)
             : rule_(rule),
-              log_visits_(std::log(
+              log_visits_(portable_log(
                   static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
                                      parent.in_flight.load(std::memory_order_relaxed) + 1u))) {}
 
