@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <map>
@@ -21,6 +22,7 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 
 constexpr std::size_t most_header = std::size_t{1} << 26;
 constexpr int version = 1;
+constexpr std::string_view extra_prefix = "training/";
 
 // --- the header's JSON, read without trust
 
@@ -189,7 +191,9 @@ Graph graph_from(const Json& description, const std::map<std::string, Stored>& t
     const auto& nodes = member(description, "nodes");
     const auto& outputs = member(description, "outputs");
     if (!nodes.is_array() || !outputs.is_array()) fail("expected lists of nodes and outputs");
-    std::size_t used = 0;
+    auto used = static_cast<std::size_t>(
+        std::count_if(tensors.begin(), tensors.end(),
+                      [](const auto& entry) { return entry.first.starts_with(extra_prefix); }));
     for (const auto& entry : nodes) {
         graph.nodes.push_back(node_from(entry, tensors));
         used += graph.nodes.back().weights.size();
@@ -220,6 +224,51 @@ std::map<std::string, Stored> stored_tensors(const Json& header, std::string_vie
     return tensors;
 }
 
+// A file whose header and checksum are sound.
+struct File {
+    std::string description;
+    std::map<std::string, Stored> tensors;
+};
+
+File opened(std::string_view bytes) {
+    const auto size = header_size(bytes);
+    if (bytes.size() < 8 || size > most_header || size > bytes.size() - 8)
+        fail("expected a header of {} bytes, found a file of {}", size, bytes.size());
+    const auto data = bytes.substr(8 + size);
+    const auto header = parse(bytes.substr(8, size), "the header");
+    const auto& metadata = member(header, "__metadata__");
+    auto description = text_at(metadata, "sanban");
+    const auto sum = checksum_of(description, data);
+    if (text_at(metadata, "checksum") != sum)
+        fail("expected checksum {}, found {}", text_at(metadata, "checksum").substr(0, 40), sum);
+    return {std::move(description), stored_tensors(header, data)};
+}
+
+// A file in the making: its tensors, and their entries in the header.
+struct Contents {
+    Json header = Json::object();
+    std::string data;
+
+    void add(const std::string& name, const std::vector<int>& shape,
+             const std::vector<float>& values) {
+        const auto begin = data.size();
+        data.append(reinterpret_cast<const char*>(values.data()), values.size() * 4);
+        header[name] = {{"dtype", "F32"}, {"shape", shape}, {"data_offsets", {begin, data.size()}}};
+    }
+};
+
+std::string description_of(const Graph& graph) {
+    Json nodes = Json::array(), outputs = Json::array();
+    for (const auto& node : graph.nodes) nodes.push_back(to_json(node));
+    for (const auto& output : graph.outputs)
+        outputs.push_back({{"name", output.name}, {"node", output.node}});
+    return Json{{"version", version},
+                {"facts", to_json(graph.facts)},
+                {"nodes", nodes},
+                {"outputs", outputs}}
+        .dump();
+}
+
 }  // namespace
 
 bool is_safetensors(std::string_view bytes) {
@@ -227,50 +276,37 @@ bool is_safetensors(std::string_view bytes) {
 }
 
 Graph graph_from_safetensors(std::string_view bytes) {
-    const auto size = header_size(bytes);
-    if (bytes.size() < 8 || size > most_header || size > bytes.size() - 8)
-        fail("expected a header of {} bytes, found a file of {}", size, bytes.size());
-    const auto data = bytes.substr(8 + size);
-    const auto header = parse(bytes.substr(8, size), "the header");
-    const auto& metadata = member(header, "__metadata__");
-    const auto description = text_at(metadata, "sanban");
-    const auto sum = checksum_of(description, data);
-    if (text_at(metadata, "checksum") != sum)
-        fail("expected checksum {}, found {}", text_at(metadata, "checksum").substr(0, 40), sum);
-    auto graph = graph_from(parse(description, "the graph"), stored_tensors(header, data));
+    const auto file = opened(bytes);
+    auto graph = graph_from(parse(file.description, "the graph"), file.tensors);
     validate(graph);
     return graph;
 }
 
-std::string to_safetensors(const Graph& graph) {
-    Json nodes = Json::array(), outputs = Json::array();
-    Json header = Json::object();
-    std::string data;
-    for (const auto& node : graph.nodes) {
-        nodes.push_back(to_json(node));
-        for (std::size_t i = 0; i < node.weights.size(); ++i) {
-            const auto& tensor = node.weights[i];
-            const auto begin = data.size();
-            data.append(reinterpret_cast<const char*>(tensor.values.data()),
-                        tensor.values.size() * 4);
-            header[fmt::format("{}.{}", node.name, weight_names(node.operation)[i])] = {
-                {"dtype", "F32"}, {"shape", tensor.shape}, {"data_offsets", {begin, data.size()}}};
-        }
-    }
-    for (const auto& output : graph.outputs)
-        outputs.push_back({{"name", output.name}, {"node", output.node}});
-    const auto description = Json{
-        {"version", version},
-        {"facts", to_json(graph.facts)},
-        {"nodes", nodes},
-        {"outputs", outputs}}.dump();
-    header["__metadata__"] = {
-        {"sanban", description}, {"checksum", checksum_of(description, data)}, {"format", "pt"}};
-    auto text = header.dump();
+Extras extras_from_safetensors(std::string_view bytes) {
+    Extras extras;
+    for (const auto& [name, stored] : opened(bytes).tensors)
+        if (name.starts_with(extra_prefix))
+            extras[name.substr(extra_prefix.size())] = tensor_of(stored).values;
+    return extras;
+}
+
+std::string to_safetensors(const Graph& graph, const Extras& extras) {
+    Contents contents;
+    for (const auto& node : graph.nodes)
+        for (std::size_t i = 0; i < node.weights.size(); ++i)
+            contents.add(fmt::format("{}.{}", node.name, weight_names(node.operation)[i]),
+                         node.weights[i].shape, node.weights[i].values);
+    for (const auto& [name, row] : extras)
+        contents.add(fmt::format("{}{}", extra_prefix, name), {static_cast<int>(row.size())}, row);
+    const auto description = description_of(graph);
+    contents.header["__metadata__"] = {{"sanban", description},
+                                       {"checksum", checksum_of(description, contents.data)},
+                                       {"format", "pt"}};
+    auto text = contents.header.dump();
     text.resize((text.size() + 7) / 8 * 8, ' ');
     std::uint64_t size = text.size();
     std::string file(reinterpret_cast<const char*>(&size), sizeof size);
-    return file + text + data;
+    return file + text + contents.data;
 }
 
 }  // namespace nn
