@@ -8,6 +8,7 @@
 
 #include "engine/base/files.h"
 #include "tests/protocols/gtp_guest.h"
+#include "tests/temporary_folder.h"
 
 namespace protocols {
 
@@ -19,17 +20,6 @@ std::vector<std::string> lines_of(const std::string& text) {
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     return lines;
 }
-
-// A directory of its own for every test, gone at the end.
-struct Scratch {
-    Scratch() {
-        std::string name = testing::TempDir() + "sanban-gtp-XXXXXX";
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no directory for the test");
-        path = name;
-    }
-    ~Scratch() { std::filesystem::remove_all(path); }
-    std::filesystem::path path;
-};
 
 }  // namespace
 
@@ -137,8 +127,8 @@ TEST(GtpBoard, RulesGoAroundAsJson) {
 }
 
 TEST(GtpSgf, AGameComesBackFromAFile) {
-    Scratch scratch;
-    const auto file = (scratch.path / "a game.sgf").string();
+    const tests::TemporaryFolder scratch;
+    const auto file = (scratch.path() / "a game.sgf").string();
     GtpGuest guest;
     guest.say("kata-set-rules japanese");
     guest.say("komi -3.5");
@@ -162,8 +152,8 @@ TEST(GtpSgf, AGameComesBackFromAFile) {
 }
 
 TEST(GtpSgf, AFileThatCannotBeReadLeavesTheGame) {
-    Scratch scratch;
-    const auto file = (scratch.path / "bad.sgf").string();
+    const tests::TemporaryFolder scratch;
+    const auto file = (scratch.path() / "bad.sgf").string();
     GtpGuest guest;
     guest.say("play b e5");
     const auto before = guest.ask("showboard");
@@ -178,15 +168,15 @@ TEST(GtpSgf, AFileThatCannotBeReadLeavesTheGame) {
 }
 
 TEST(GtpSgf, AFailedWriteKeepsTheOldFile) {
-    Scratch scratch;
-    const auto file = (scratch.path / "old.sgf").string();
+    const tests::TemporaryFolder scratch;
+    const auto file = (scratch.path() / "old.sgf").string();
     GtpGuest guest;
     EXPECT_EQ(guest.say("printsgf " + file), "=");
     const auto old = engine::read_file(file);
     guest.say("play b e5");
     // Below a file there can be no other, whoever asks.
     EXPECT_TRUE(guest.say("printsgf " + file + "/below.sgf").starts_with("? "));
-    EXPECT_TRUE(guest.say("printsgf " + scratch.path.string()).starts_with("? "));
+    EXPECT_TRUE(guest.say("printsgf " + scratch.path().string()).starts_with("? "));
     EXPECT_EQ(engine::read_file(file), old);
     EXPECT_EQ(guest.ask("last_move"), "black E5");
 }

@@ -84,7 +84,7 @@ class BoardMatch : public ::testing::Test {
     const std::filesystem::path& folder() const { return folder_.path(); }
 
    private:
-    testing::TemporaryFolder folder_;
+    tests::TemporaryFolder folder_;
 };
 
 TEST_F(BoardMatch, ChessOverUciAndXboard) {

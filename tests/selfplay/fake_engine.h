@@ -3,11 +3,11 @@
 // `at`th move it does what `mode` says.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/temporary_folder.h"
 
 namespace selfplay::testing {
 
@@ -50,22 +50,6 @@ while read -r command first second; do
 done
 )";
 
-// A folder that is gone with the object.
-class TemporaryFolder {
-   public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "sanban-XXXXXX").string();
-        path_ = ::mkdtemp(name.data());
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-   private:
-    std::filesystem::path path_;
-};
-
 class FakeEngine {
    public:
     FakeEngine() { std::ofstream(script()) << fake_engine_script; }
@@ -77,7 +61,7 @@ class FakeEngine {
 
    private:
     std::filesystem::path script() const { return folder_.path() / "fake engine.sh"; }
-    TemporaryFolder folder_;
+    tests::TemporaryFolder folder_;
 };
 
 }  // namespace selfplay::testing
