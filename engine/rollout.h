@@ -4,6 +4,8 @@
 // alone) names its own type `Rollouts`, with working memory inside, one a thread.
 #pragma once
 
+#include <vector>
+
 #include "engine/base/random.h"
 #include "engine/game.h"
 
@@ -48,6 +50,13 @@ template <class G>
 requires requires { typename G::Rollouts; }
 struct RolloutsOf<G> {
     using type = typename G::Rollouts;
+};
+
+// Rollouts whose policy also weighs moves for the tree: one positive weight a move, 1 where nothing
+// is known of it.
+template <class R, class G>
+concept WeighsMoves = requires(const R rollouts, const G game, std::vector<float> weights) {
+    rollouts.weigh(game, game.legal_moves(), weights);
 };
 
 }  // namespace engine

@@ -37,6 +37,12 @@ void shorten(search::Limits& limits) {
     limits.clock.reset();
 }
 
+// A pass is always better.
+void avoid_own_eyes(const go::Go& game, std::vector<go::Move>& avoid) {
+    for (const go::Move move : game.legal_moves())
+        if (game.fills_own_eye(move)) avoid.push_back(move);
+}
+
 // With so few moves played a game is not given up, however it stands; a handicap makes White
 // look lost for longer.
 bool too_early_to_resign(const go::Go& game) {
@@ -127,6 +133,7 @@ std::string Gtp::choose(const Errand& errand) {
     }
     const bool restricted = !limits.only.empty() || !limits.avoid.empty();
     const auto end = restricted ? Ending{} : read_ending(game, errand.cleans_up);
+    if (limits.only.empty()) avoid_own_eyes(game, limits.avoid);
     if (end.pass) shorten(limits);
     limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());
     if (limits.clock) limits.clock = reduced(*limits.clock, since(start));

@@ -3,9 +3,11 @@
 // from any.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -64,7 +66,8 @@ class LeafEvaluator {
     virtual OwnerTally* tally() { return nullptr; }
 };
 
-// Monte Carlo: equal priors, and the result of one game played to the end.
+// Monte Carlo: the result of one game played to the end. Priors are the rollout policy's where it
+// weighs moves, else equal.
 template <engine::Game G>
 class RolloutLeaf final : public LeafEvaluator<G> {
    public:
@@ -72,8 +75,11 @@ class RolloutLeaf final : public LeafEvaluator<G> {
 
     void evaluate(std::span<Leaf<G>> leaves) override {
         for (Leaf<G>& leaf : leaves) {
-            if (leaf.expands) shuffle(leaf.moves);
             leaf.priors.clear();
+            if (leaf.expands) {
+                shuffle(leaf.moves);
+                weigh(leaf);
+            }
             roll_out(leaf);
         }
     }
@@ -81,11 +87,32 @@ class RolloutLeaf final : public LeafEvaluator<G> {
     OwnerTally* tally() override { return &tally_; }
 
    private:
+    using Rollouts = typename engine::RolloutsOf<G>::type;
+
     void roll_out(Leaf<G>& leaf) {
         const auto result = rollouts_.play(leaf.game, random_);
         tally_.add(result);
         leaf.firsts.assign(result.firsts.begin(), result.firsts.end());
-        leaf.value = engine::value_for(leaf.game.to_play(), result.outcome);
+        leaf.value = value(leaf.game.to_play(), result);
+    }
+
+    // The result, and in games with points a little of the lead: of moves that all win, or all
+    // lose, the search is to find the best as well.
+    static float value(engine::Player mover, const engine::RolloutResult& result) {
+        constexpr float share = 0.1f;
+        const float outcome = engine::value_for(mover, result.outcome);
+        if (result.owners.empty()) return outcome;
+        const float all = result.lead / static_cast<float>(result.owners.size());
+        const float lead = std::clamp(mover == engine::Player::first ? all : -all, -1.0f, 1.0f);
+        return (1 - share) * outcome + share * lead;
+    }
+
+    void weigh(Leaf<G>& leaf) const {
+        if constexpr (engine::WeighsMoves<Rollouts, G>) {
+            rollouts_.weigh(leaf.game, leaf.moves, leaf.priors);
+            const float sum = std::accumulate(leaf.priors.begin(), leaf.priors.end(), 0.0f);
+            for (float& prior : leaf.priors) prior /= sum;
+        }
     }
 
     // Unvisited moves are tried in the order of the list, which must not favour a corner.
@@ -100,7 +127,7 @@ class RolloutLeaf final : public LeafEvaluator<G> {
         }
     }
 
-    typename engine::RolloutsOf<G>::type rollouts_;
+    Rollouts rollouts_;
     engine::Random random_;
     OwnerTally tally_;
     std::vector<engine::Move> order_;

@@ -13,6 +13,7 @@ struct SearchParams {
     float unvisited = 10;           // what UCB1 takes an unvisited move to score
     float rave = 1000;              // own visits that weigh as much as AMAF; 0: plain UCB1
     float rave_exploration = 0.1f;  // c of UCB1 under RAVE, which explores by itself
+    float prior_visits = 30;        // AMAF visits that a move's prior counts for under RAVE
     int expand_after = 1;           // visits at which a leaf gets children
     int lag_ms = 20;                // least reserve on the clock; what is measured comes on top
     bool early_end = true;          // of clocked and counted thinks whose best move is settled
@@ -33,6 +34,8 @@ struct SearchParams {
                              "visits at which a move's own value weighs as much as AMAF; 0: none"},
             Option<P, float>{"rave-exploration", &P::rave_exploration, 0, 10,
                              "c of UCB1 with RAVE"},
+            Option<P, float>{"prior-visits", &P::prior_visits, 0, 1e6f,
+                             "AMAF visits that a rollout policy's opinion of a move counts for"},
             Option<P, int>{"expand-after", &P::expand_after, 1, 1000,
                            "visits at which a leaf gets children"},
             Option<P, int>{"lag", &P::lag_ms, 0, 10000,

@@ -2,6 +2,7 @@
 // visit count and then scores each edge by what is known of its child.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -54,10 +55,13 @@ struct Ucb1 {
 
 // UCT-RAVE (Gelly & Silver 2007): UCB1 whose mean is mixed with that of all rollouts in which the
 // move was made at any later time. With n own and m such visits these weigh
-// m / (n + m + n m / equivalence): all at first, half when n is about `equivalence`.
+// m / (n + m + n m / equivalence): all at first, half when n is about `equivalence`. A prior of
+// P counts as `prior_visits` of these m, each of the value (r - 1) / (r + 1): r is P over the mean
+// prior, so that this is how often the move would beat an average one (Bradley & Terry 1952).
 struct Rave {
     Ucb1 ucb1;
     float equivalence = 1000;
+    float prior_visits = 0;
 
     class AtNode {
        public:
@@ -65,10 +69,12 @@ struct Rave {
             : rule_(rule),
               log_visits_(portable_log(
                   static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
-                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))) {}
+                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))),
+              edges_(parent.edge_count) {}
 
         float score(const Edge& edge, const Node* child) const {
-            const auto m = static_cast<float>(edge.amaf.visits());
+            const auto made = static_cast<float>(edge.amaf.visits());
+            const float m = made + rule_.prior_visits;
             const std::uint32_t losses =
                 child ? child->in_flight.load(std::memory_order_relaxed) : 0;
             const auto visits = child ? child->visits.load(std::memory_order_relaxed) : 0;
@@ -76,13 +82,16 @@ struct Rave {
             if (n + m == 0) return rule_.ucb1.unvisited;
             const float share = m / (n + m + n * m / rule_.equivalence);
             const float own = child ? child->mean(losses) : 0;
-            return own + share * (edge.amaf.mean() - own) +
+            const float ratio = edge.prior() * edges_;
+            const float wins =
+                made * edge.amaf.mean() + rule_.prior_visits * (ratio - 1) / (ratio + 1);
+            return own + share * (wins / std::max(m, 1.0f) - own) +
                    rule_.ucb1.exploration * std::sqrt(log_visits_ / (n + 1));
         }
 
        private:
         const Rave& rule_;
-        float log_visits_;
+        float log_visits_, edges_;
     };
 };
 

@@ -149,7 +149,11 @@ class TreeSearch {
 
    private:
     static Rule rule_of(const SearchParams& params) {
-        if (params.rave > 0) return Rave{{params.rave_exploration, params.unvisited}, params.rave};
+        constexpr bool weighs = engine::WeighsMoves<typename engine::RolloutsOf<G>::type, G>;
+        if (params.rave > 0)
+            return Rave{{params.rave_exploration, params.unvisited},
+                        params.rave,
+                        weighs ? params.prior_visits : 0};
         return Ucb1{params.exploration, params.unvisited};
     }
 

@@ -1,5 +1,7 @@
 #include "engine/go/bench.h"
 
+#include <fmt/format.h>
+
 #include "engine/base/measure.h"
 #include "engine/base/random.h"
 #include "engine/go/rollouts.h"
@@ -8,12 +10,13 @@ namespace go {
 
 namespace {
 
-engine::Figure rollouts(int size, double seconds) {
+template <class Kind>
+engine::Figure rollouts(int size, double seconds, std::string_view name = "rollouts") {
     const Go game(size);
     engine::Random random(1);
-    Rollouts rollouts;
+    Kind rollouts;
     const double rate = engine::calls_per_second(seconds, [&] { rollouts.play(game, random); });
-    return {"go" + std::to_string(size) + "_rollouts", rate, "rollouts/s"};
+    return {fmt::format("go{}_{}", size, name), rate, "rollouts/s"};
 }
 
 // Copies to and fro between two values, as the search does from node to node.
@@ -44,9 +47,12 @@ Go random_game(int size, int moves) {
 
 std::vector<engine::Figure> bench_rules(double seconds) {
     const Go game = random_game(19, 200);
-    return {rollouts(9, seconds),
-            rollouts(13, seconds),
-            rollouts(19, seconds),
+    constexpr std::string_view by_policy = "policy_rollouts";
+    return {rollouts<RandomRollouts>(9, seconds),
+            rollouts<RandomRollouts>(13, seconds),
+            rollouts<RandomRollouts>(19, seconds),
+            rollouts<Rollouts>(9, seconds, by_policy),
+            rollouts<Rollouts>(19, seconds, by_policy),
             {"go19_board_copy", copy_time(seconds, game.board()), "ns"},
             {"go19_game_copy", copy_time(seconds, game), "ns"}};
 }

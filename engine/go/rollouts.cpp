@@ -1,6 +1,7 @@
 #include "engine/go/rollouts.h"
 
 #include "engine/go/rollout_board.h"
+#include "engine/go/rollout_policy.h"
 #include "engine/go/score.h"
 
 namespace go {
@@ -18,21 +19,45 @@ int more_played_by_black(const Go& game) {
 
 }  // namespace
 
+struct AtRandom {
+    template <int most_size>
+    class Game {
+       public:
+        using Board = RolloutBoard<most_size>;
+        explicit Game(const Go& from) : board_(from) {}
+        const Board& board() const { return board_; }
+        template <Colour colour>
+        int play(engine::Random& random) {
+            return board_.template play_random<colour>(random);
+        }
+
+       private:
+        Board board_;
+    };
+};
+
+struct ByPolicy {
+    template <int most_size>
+    using Game = RolloutPolicy<most_size>;
+};
+
 // Returns Black's lead in area, and leaves the owners behind.
+template <class Policy>
 template <int most_size>
-int Rollouts::play_on(const Go& from, engine::Random& random) {
-    RolloutBoard<most_size> board(from);
+int RolloutsBy<Policy>::play_on(const Go& from, engine::Random& random) {
+    typename Policy::template Game<most_size> rollout(from);
     const int size = from.size(), most_moves = 3 * size * size;
     // The generator's state stays in registers.
     engine::Random local = random;
     bool black = from.to_play() == Player::first;
     for (int moves = 0, passes = from.consecutive_passes(); moves < most_moves && passes < 2;
          ++moves, black = !black) {
-        const int played = black ? board.template play_random<Colour::black>(local)
-                                 : board.template play_random<Colour::white>(local);
+        const int played = black ? rollout.template play<Colour::black>(local)
+                                 : rollout.template play<Colour::white>(local);
         passes = played != 0 ? 0 : passes + 1;
     }
     random = local;
+    const auto& board = rollout.board();
     int lead = 0;
     std::size_t next = 0;
     for (int y = 0; y < size; ++y)
@@ -43,7 +68,8 @@ int Rollouts::play_on(const Go& from, engine::Random& random) {
     return lead;
 }
 
-engine::RolloutResult Rollouts::play(const Go& from, engine::Random& random) {
+template <class Policy>
+engine::RolloutResult RolloutsBy<Policy>::play(const Go& from, engine::Random& random) {
     if (from.outcome() != Outcome::ongoing) return finished(from);
     const int area = from.size() <= 9    ? play_on<9>(from, random)
                      : from.size() <= 13 ? play_on<13>(from, random)
@@ -63,7 +89,8 @@ engine::RolloutResult Rollouts::play(const Go& from, engine::Random& random) {
              static_cast<std::size_t>(from.board().index(from.size() - 1, from.size() - 1)) + 1}};
 }
 
-engine::RolloutResult Rollouts::finished(const Go& game) {
+template <class Policy>
+engine::RolloutResult RolloutsBy<Policy>::finished(const Go& game) {
     const auto result = score(game);
     for (std::size_t i = 0; i < result.owners.size(); ++i) {
         const auto owner = result.owners[i];
@@ -74,6 +101,30 @@ engine::RolloutResult Rollouts::finished(const Go& game) {
         static_cast<float>(result.lead_halves) / 2,
         {owners_.data(), result.owners.size()},
     };
+}
+
+template class RolloutsBy<AtRandom>;
+template class RolloutsBy<ByPolicy>;
+
+namespace {
+
+template <int most_size>
+void weigh_on(const Go& game, const MoveList& moves, std::vector<float>& weights) {
+    const RolloutPolicy<most_size> policy(game);
+    for (const Move move : moves)
+        weights.push_back(policy.weight(move == Go::pass ? std::nullopt : game.point_of(move),
+                                        colour_of(game.to_play())));
+}
+
+}  // namespace
+
+void Rollouts::weigh(const Go& game, const MoveList& moves, std::vector<float>& weights) const {
+    weights.clear();
+    const auto weigh_on_board = game.size() <= 9    ? weigh_on<9>
+                                : game.size() <= 13 ? weigh_on<13>
+                                : game.size() <= 19 ? weigh_on<19>
+                                                    : weigh_on<25>;
+    weigh_on_board(game, moves, weights);
 }
 
 }  // namespace go

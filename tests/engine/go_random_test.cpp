@@ -313,7 +313,7 @@ TEST(GoRollouts, OfAFinishedGameAreItsScore) {
 
 TEST(GoRollouts, SpareNoSideOnTheEmptyBoard) {
     engine::Random random(9);
-    Rollouts rollouts;
+    RandomRollouts rollouts;
     double lead = 0;
     constexpr int games = 4000;
     for (int i = 0; i < games; ++i) lead += rollouts.play(Go(9, Komi::from_points(0)), random).lead;

@@ -69,6 +69,45 @@ TEST(GtpEndgame, TheWinnerPassesOverDeadStonesUnderChineseRules) {
     }
 }
 
+TEST(GtpEndgame, WinnerAndLoserPassOverDeadStonesWhateverTheSimulations) {
+    for (const char* rules : {"chinese", "japanese"})
+        for (const int simulations : {300, 600, 2000, 4000}) {
+            GtpGuest guest(small_game(9, static_cast<std::uint64_t>(simulations)));
+            guest.say(std::string("kata-set-rules ") + rules);
+            ASSERT_EQ(guest.say(setup(both_have_dead)), "=");
+            for (const char* colour : {"b", "w"})
+                EXPECT_EQ(guest.ask(std::string("reg_genmove ") + colour), "pass")
+                    << colour << simulations << rules;
+        }
+}
+
+TEST(GtpEndgame, BothSidesCleanUpUnderTrompTaylorAndKeepTheirEyes) {
+    for (const int simulations : {300, 1000, 2000}) {
+        GtpGuest guest(small_game(9, static_cast<std::uint64_t>(simulations)));
+        guest.say("kata-set-rules tromp-taylor");
+        ASSERT_EQ(guest.say(setup(both_have_dead)), "=");
+        int moves = 0, passes = 0;
+        for (; passes < 2; ++moves) {
+            ASSERT_LT(moves, 12) << guest.ask("showboard");
+            const auto move = guest.ask(moves % 2 == 0 ? "genmove b" : "genmove w");
+            passes = move == "pass" ? passes + 1 : 0;
+        }
+        EXPECT_EQ(guest.ask("captures b"), "1");
+        EXPECT_EQ(guest.ask("captures w"), "1");
+        EXPECT_EQ(guest.ask("final_score"), "B+1.5");
+    }
+}
+
+TEST(GtpEndgame, NoOwnEyeIsFilledByASideThatHasLost) {
+    GtpGuest guest(small_game(9, 300));
+    guest.say("kata-set-rules tromp-taylor");
+    ASSERT_EQ(guest.say(setup(one_to_take)), "=");
+    for (int i = 0; i < 2; ++i) {
+        const auto move = guest.ask("reg_genmove w");
+        for (const auto* eye : {"J9", "H8", "J1", "H2"}) EXPECT_NE(move, eye);
+    }
+}
+
 TEST(GtpEndgame, TheScoreIsTheBoardWithoutTheDeadStones) {
     for (const auto& [rules, result] : {std::pair{"chinese", "B+1.5"}, {"japanese", "W+7.5"}}) {
         GtpGuest guest;
