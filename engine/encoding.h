@@ -9,6 +9,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,7 +47,17 @@ struct Encoding {
     void (*write)(const G& game, std::span<float> planes, std::span<float> globals);
     // Where the policy holds `move`, legal in `game`: 0 .. policy_size - 1.
     int (*policy_index)(const G& game, Move move);
+    // Of all that `write` and `policy_index` look at, the legal moves aside.
+    std::uint64_t (*key)(const G& game);
+    // Whether the networks of this family tell the first player's value and not the mover's.
+    bool value_of_first = false;
 };
+
+// Mixes `number` into a key.
+constexpr std::uint64_t mixed(std::uint64_t key, std::uint64_t number) {
+    key = (key ^ number) * 0x9e3779b97f4a7c15;
+    return key ^ key >> 29;
+}
 
 template <class G>
 concept Encoded = Game<G> && requires {

@@ -42,6 +42,11 @@ class PackedBoard {
     explicit PackedBoard(const Position& position);
     bool operator==(const PackedBoard&) const = default;
     Bitboard pieces(Player player, Piece piece) const;
+    // `key` and all of the board.
+    std::uint64_t mixed_into(std::uint64_t key) const {
+        for (const Bitboard bits : bits_) key = engine::mixed(key, bits);
+        return engine::mixed(key, white_);
+    }
 
    private:
     std::array<Bitboard, 3> bits_{};

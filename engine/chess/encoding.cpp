@@ -108,9 +108,32 @@ int policy_index(const Chess& game, Move move) {
 
 }  // namespace alphazero
 
+namespace {
+
+std::uint64_t network_key(const Chess& game) {
+    const auto& position = game.position();
+    std::uint64_t key = engine::mixed(game.key(), static_cast<std::uint64_t>(position.ply()));
+    key = engine::mixed(key, static_cast<std::uint64_t>(position.halfmove_clock()));
+    for (int ago = 0; ago < alphazero::boards; ++ago) {
+        const auto past = game.board_before(ago);
+        if (!past) break;
+        key = engine::mixed(key, static_cast<std::uint64_t>(past->repetitions));
+        key = past->board.mixed_into(key);
+    }
+    return key;
+}
+
+}  // namespace
+
 std::span<const engine::Encoding<Chess>> Chess::encodings() {
-    static const std::array<engine::Encoding<Chess>, 2> list = {
-        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}, lc0_112()}};
+    static const auto list = [] {
+        std::array<engine::Encoding<Chess>, 2> rows = {
+            {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index,
+              network_key},
+             lc0_112()}};
+        rows[1].key = network_key;
+        return rows;
+    }();
     return list;
 }
 

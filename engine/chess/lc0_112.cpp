@@ -127,6 +127,6 @@ int policy_index(const Chess& game, Move move) {
 
 }  // namespace
 
-engine::Encoding<Chess> lc0_112() { return {"lc0-112", shape, write, policy_index}; }
+engine::Encoding<Chess> lc0_112() { return {"lc0-112", shape, write, policy_index, nullptr}; }
 
 }  // namespace chess

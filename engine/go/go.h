@@ -100,6 +100,10 @@ class Go {
     Outcome outcome() const;
     // Third occurrence of a position under simple ko: the game has no result (a draw in search).
     bool no_result() const { return no_result_; }
+    // Whether a game may end so under these rules, as KataGo's networks are told.
+    bool can_end_without_result() const {
+        return rules_.ko == Ko::simple || rules_.scoring == Scoring::territory;
+    }
 
     std::uint64_t key() const;
 

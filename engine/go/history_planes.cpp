@@ -53,16 +53,17 @@ void write_leela_zero(const Go& game, std::span<float> planes, std::span<float>)
 }  // namespace
 
 engine::Encoding<Go> alphazero() {
-    return {"alphazero", shape<stone_planes + 1>, write_alphazero, policy_index};
+    return {"alphazero", shape<stone_planes + 1>, write_alphazero, policy_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero() {
-    return {"leela-zero-18", shape<stone_planes + 2>, write_leela_zero, policy_index};
+    return {"leela-zero-18", shape<stone_planes + 2>, write_leela_zero, policy_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero_black() {
     auto encoding = leela_zero();
     encoding.name = "leela-zero-18-black";
+    encoding.value_of_first = true;
     return encoding;
 }
 

@@ -224,6 +224,6 @@ int policy_index(const Go& game, Move move) {
 
 }  // namespace
 
-engine::Encoding<Go> katago_v7() { return {"katago-v7", shape, write, policy_index}; }
+engine::Encoding<Go> katago_v7() { return {"katago-v7", shape, write, policy_index, nullptr}; }
 
 }  // namespace go

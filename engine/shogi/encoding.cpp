@@ -106,9 +106,23 @@ int policy_index(const Shogi& game, Move move) {
 
 }  // namespace alphazero
 
+namespace {
+
+// Past positions by their keys, which hold the hands too.
+std::uint64_t network_key(const Shogi& game) {
+    std::uint64_t key = engine::mixed(game.key(), static_cast<std::uint64_t>(game.move_count()));
+    for (int back = 0; back < std::min(alphazero::boards, game.plies()); ++back) {
+        key = engine::mixed(key, game.key_before(back));
+        key = engine::mixed(key, static_cast<std::uint64_t>(game.repetitions(back)));
+    }
+    return key;
+}
+
+}  // namespace
+
 std::span<const engine::Encoding<Shogi>> Shogi::encodings() {
     static constexpr std::array<engine::Encoding<Shogi>, 1> list = {
-        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index}}};
+        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index, network_key}}};
     return list;
 }
 

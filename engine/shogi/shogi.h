@@ -80,6 +80,7 @@ class Shogi {
 
     // How often the position `back` moves ago had occurred before: 0 the first time.
     int repetitions(int back = 0) const { return past_[past_.size() - 1 - at(back)].repetitions; }
+    std::uint64_t key_before(int back) const { return past_[past_.size() - 1 - at(back)].key; }
     // How many positions back the game is known, itself counted.
     int plies() const { return static_cast<int>(past_.size()); }
     // The position `back` moves ago, less than plies().

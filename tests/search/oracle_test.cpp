@@ -1,5 +1,5 @@
-// Games and networks together: positions encoded by the games, computed by the reference executor,
-// against what KataGo, lc0 and Leela Zero answer themselves.
+// Games and networks together through the evaluator: what the networks say of positions, against
+// what KataGo, lc0 and Leela Zero answer themselves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "engine/chess/chess.h"
 #include "engine/encoding.h"
 #include "engine/go/go.h"
-#include "nn/eigen/executor.h"
-#include "nn/load.h"
+#include "search/network.h"
+#include "search/network_evaluator.h"
 
 namespace {
 
@@ -32,52 +32,34 @@ std::vector<Json> lines_of(const std::filesystem::path& path) {
     return lines;
 }
 
-using Answers = std::map<std::string, std::vector<float>>;
-
-// A network with the encoding that its file names.
+// A network asked through the search's evaluator.
 template <class G>
 class Net {
    public:
     explicit Net(const std::filesystem::path& path)
-        : graph_(nn::load(path)),
-          encoding_(engine::find_encoding<G>(graph_.facts.encoding)),
-          executor_(nn::eigen::Program(graph_).make_executor()) {}
+        : source_(search::load_network(path.string(), nn::Precision::fp32)),
+          evaluator_(source_.make_evaluator()) {}
 
-    Answers answer(const G& game) {
-        const auto shape = encoding_.shape(game);
-        std::vector<float> planes(shape.planes_size(), -1);
-        std::vector<float> globals(static_cast<std::size_t>(shape.globals), -1);
-        encoding_.write(game, planes, globals);
-        const auto shapes = nn::infer_shapes(graph_, shape.height);
-        std::vector<std::vector<float>> results;
-        for (const auto& output : graph_.outputs)
-            results.emplace_back(
-                shapes[static_cast<std::size_t>(output.node)].size(shape.height * shape.width));
-        const std::vector<std::span<const float>> in = {planes, globals};
-        const std::vector<std::span<float>> out(results.begin(), results.end());
-        executor_->run({1, shape.height, std::span(in).first(graph_.input_nodes().size()), out});
-        Answers answers;
-        for (std::size_t i = 0; i < results.size(); ++i)
-            answers[graph_.outputs[i].name] = results[i];
-        return answers;
+    search::Evaluation answer(const G& game, int symmetry = 0) {
+        source_.check(game);
+        search::Evaluation answer;
+        const auto moves = game.legal_moves();
+        const search::Query<G> query{&game, &moves, symmetry, &answer};
+        evaluator_->evaluate({&query, 1});
+        return answer;
     }
 
-    // Over the legal moves.
-    std::map<std::string, double> policy(const G& game, const Answers& answers) const {
+    static std::map<std::string, double> policy(const G& game, const search::Evaluation& answer) {
         std::map<std::string, double> policy;
-        double sum = 0;
-        for (const engine::Move move : game.legal_moves()) {
-            const auto index = static_cast<std::size_t>(encoding_.policy_index(game, move));
-            sum += policy[game.move_to_text(move)] = std::exp(answers.at("policy")[index]);
-        }
-        for (auto& [move, share] : policy) share /= sum;
+        std::size_t i = 0;
+        for (const engine::Move move : game.legal_moves())
+            policy[game.move_to_text(move)] = static_cast<double>(answer.priors.at(i++));
         return policy;
     }
 
    private:
-    nn::Graph graph_;
-    engine::Encoding<G> encoding_;
-    std::unique_ptr<nn::Executor> executor_;
+    search::NetworkSource<G> source_;
+    std::unique_ptr<search::Evaluator<G>> evaluator_;
 };
 
 go::Go game_of(const Json& line) {
@@ -91,18 +73,6 @@ go::Go game_of(const Json& line) {
     return game;
 }
 
-// Win, no result, loss for the mover.
-std::array<double, 3> values_of(const go::Go& game, const Answers& answers) {
-    std::array<double, 3> values{};
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += values[i] = std::exp(answers.at("wdl")[i]);
-    const bool no_result_possible =
-        game.rules().ko == go::Ko::simple || game.rules().scoring == go::Scoring::territory;
-    if (!no_result_possible) sum -= std::exchange(values[1], 0);
-    for (auto& value : values) value /= sum;
-    return values;
-}
-
 void check_katago(const char* network, const char* oracle) {
     const auto path = shared_data() / "nets" / network;
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the shared data is not there";
@@ -111,14 +81,13 @@ void check_katago(const char* network, const char* oracle) {
     for (const auto& line : lines_of(shared_data() / "oracle" / oracle)) {
         SCOPED_TRACE(testing::Message() << oracle << " line " << ++number);
         const auto game = game_of(line);
-        const auto answers = net.answer(game);
-        const auto values = values_of(game, answers);
+        const auto answer = net.answer(game);
         const bool white = game.to_play() == engine::Player::second;
-        EXPECT_NEAR(values[white ? 0 : 2], line["win"].get<double>(), 1e-4);
-        EXPECT_NEAR(values[white ? 2 : 0], line["loss"].get<double>(), 1e-4);
-        const double lead = answers.at("lead")[0] * (1 - values[1]);
+        EXPECT_NEAR(white ? answer.win : answer.loss, line["win"].get<double>(), 1e-4);
+        EXPECT_NEAR(white ? answer.loss : answer.win, line["loss"].get<double>(), 1e-4);
+        const double lead = answer[search::Figure::lead];
         EXPECT_NEAR(white ? lead : -lead, line["lead"].get<double>(), 2e-3);
-        auto policy = net.policy(game, answers);
+        auto policy = net.policy(game, answer);
         EXPECT_NEAR(policy["pass"], line["pass"].get<double>(), 1e-4);
         double worst_policy = 0, worst_owner = 0;
         const int size = game.size();
@@ -129,7 +98,9 @@ void check_katago(const char* network, const char* oracle) {
             if (!expected.is_null() && policy.contains(vertex))
                 worst_policy =
                     std::max(worst_policy, std::abs(policy[vertex] - expected.get<double>()));
-            const double owner = answers.at("ownership")[static_cast<std::size_t>(at)];
+            // Ours go from the bottom row up.
+            const int ours = (size - 1 - at / size) * size + at % size;
+            const double owner = answer.owners.at(static_cast<std::size_t>(ours));
             worst_owner =
                 std::max(worst_owner,
                          std::abs((white ? owner : -owner) -
@@ -163,12 +134,9 @@ TEST(Oracle, Maia) {
             ASSERT_TRUE(move) << text;
             game.play(*move);
         }
-        const auto answers = net.answer(game);
-        const auto& logits = answers.at("wdl");
-        const double win = std::exp(logits[0]), draw = std::exp(logits[1]),
-                     loss = std::exp(logits[2]);
-        EXPECT_NEAR((win - loss) / (win + draw + loss), line["value"].get<double>(), 5e-4);
-        auto policy = net.policy(game, answers);
+        const auto answer = net.answer(game);
+        EXPECT_NEAR(answer.value(), line["value"].get<double>(), 5e-4);
+        auto policy = net.policy(game, answer);
         EXPECT_EQ(policy.size(), line["policy"].size());
         for (const auto& [text, percent] : line["policy"].items()) {
             const auto move = game.move_from_text(text);
@@ -186,7 +154,7 @@ TEST(Oracle, LeelaZero) {
     Net<go::Go> net(path);
     go::Go game(19);
     for (const auto vertex : {"Q16", "D4"}) game.play(*game.move_from_text(vertex));
-    EXPECT_NEAR((1 + net.answer(game).at("value")[0]) / 2, 0.576157, 1e-5);
+    EXPECT_NEAR(net.answer(game).win, 0.576157, 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,83 @@
+// What a network says of positions: priors over the moves asked about, and what it expects of the
+// end. One call a batch. An evaluator belongs to one thread at a time; a source makes them for
+// any. Decorators of the same interface remember answers and turn the board.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/game.h"
+
+namespace search {
+
+// Numbers that some networks tell beside the value, all as the mover sees them; 0 where they do
+// not. What each means stands with nn::Graph.
+enum class Figure : std::uint8_t {
+    lead,
+    score,
+    score_deviation,
+    variance_time,
+    winloss_error,
+    score_error,
+    moves_left,
+};
+inline constexpr std::size_t figure_count = 7;
+// The names of a network's outputs, in the order of the enumerators.
+inline constexpr std::array<std::string_view, figure_count> figure_names = {
+    "lead",          "score",       "score_deviation", "variance_time",
+    "winloss_error", "score_error", "moves_left"};
+
+// All as the player to move sees it.
+struct Evaluation {
+    std::vector<float> priors;  // one a move, in the order of the question, summing to 1
+    float win = 0, loss = 0;    // with `draw` they sum to 1
+    float draw = 0;             // or no result; 0 where the network has one value only
+    std::array<float, figure_count> figures{};
+    // Of every point in [-1, 1], in the game's own order of points; empty where the network has
+    // no word on it.
+    std::vector<float> owners;
+
+    float value() const { return win - loss; }
+    float& operator[](Figure figure) { return figures[static_cast<std::size_t>(figure)]; }
+    float operator[](Figure figure) const { return figures[static_cast<std::size_t>(figure)]; }
+};
+
+// How the board is turned before the network sees it: 0..7, or one of these.
+inline constexpr int random_symmetry = -1, all_symmetries = -2;
+
+template <engine::Game G>
+struct Query {
+    const G* game = nullptr;
+    const engine::MoveList* moves = nullptr;  // legal ones
+    int symmetry = 0;
+    Evaluation* answer = nullptr;  // overwritten
+};
+
+template <engine::Game G>
+class Evaluator {
+   public:
+    virtual ~Evaluator() = default;
+    // Fails with engine::Error when the network does not serve the board or yields no numbers.
+    virtual void evaluate(std::span<const Query<G>> queries) = 0;
+    // Symmetries that may be asked for of such a game: 8, or 1.
+    virtual int symmetries(const G& game) const = 0;
+    // Of all that an answer depends on, legal moves and symmetry aside.
+    virtual std::uint64_t key(const G& game) const = 0;
+};
+
+template <engine::Game G>
+class EvaluatorSource {
+   public:
+    virtual ~EvaluatorSource() = default;
+    // From any thread.
+    virtual std::unique_ptr<Evaluator<G>> make_evaluator() const = 0;
+    virtual std::string_view name() const = 0;
+    // Fails, naming both, when the network does not serve the board of this game.
+    virtual void check(const G& game) const = 0;
+};
+
+}  // namespace search
