@@ -7,7 +7,7 @@ namespace nn {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> precision_names = {"fp32", "bf16", "int8"};
+constexpr std::array<std::string_view, 4> precision_names = {"fp32", "bf16", "int8", "int16"};
 
 }  // namespace
 

@@ -28,7 +28,8 @@ class Executor {
     virtual void run(const Batch& batch) = 0;
 };
 
-enum class Precision : std::uint8_t { fp32, bf16, int8 };
+// From the most exact to the least; int16 is as exact as bf16 and the fastest.
+enum class Precision : std::uint8_t { fp32, bf16, int8, int16 };
 
 std::string_view name_of(Precision precision);
 std::optional<Precision> precision_from(std::string_view name);
