@@ -1,7 +1,7 @@
 # Sourced by ./run, ./test and .ci/run, from the top of the checkout: installs what is missing and builds.
 
 build_packages=(g++ cmake ninja-build libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
-    libeigen3-dev protobuf-compiler libprotobuf-dev libzstd-dev)
+    libeigen3-dev libdnnl-dev protobuf-compiler libprotobuf-dev libzstd-dev)
 test_packages=(libgtest-dev gnugo)
 check_packages=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "nn/executor.h"
+#include "nn/program.h"
 #include "nn/winograd/kernels.h"
 
 namespace nn::winograd {
@@ -24,11 +24,11 @@ struct Lowered;
 // Packed weights, shared by the executors made of them. `maxima`: per node of `optimised` and
 // channel, the largest magnitude that calibration saw; values well beyond are clipped. Needs
 // available() and serves().
-class Program {
+class Program : public nn::Program {
    public:
     Program(const Graph& optimised, std::span<const std::vector<float>> maxima, int board,
             const Kernels* kernels = best_kernels());
-    std::unique_ptr<Executor> make_executor() const;
+    std::unique_ptr<Executor> make_executor() const override;
 
    private:
     std::shared_ptr<const Lowered> lowered_;

@@ -1,0 +1,218 @@
+// The loops behind kernels.h, for the files that compile them for one instruction set each. All
+// have internal linkage and call no inline library code, so that no faster copy of a shared
+// function can end up where a slower processor runs.
+#pragma once
+
+#include <math.h>
+
+#include "nn/onednn/kernels.h"
+
+namespace nn::onednn {
+namespace {
+
+constexpr int chunk = 64;
+
+inline int smaller(int a, int b) { return a < b ? a : b; }
+inline float clamped(float x, float low, float high) {
+    const float above = x < low ? low : x;
+    return above > high ? high : above;
+}
+
+// Cephes' expf: 2^k e^r with |r| <= ln(2) / 2.
+inline float exponential(float x) {
+    x = clamped(x, -87.0f, 88.0f);
+    const float shifted = x * 1.44269504f;
+    const int k = static_cast<int>(shifted + (shifted < 0 ? -0.5f : 0.5f));
+    const float whole = static_cast<float>(k);
+    const float r = x - whole * 0.693359375f + whole * 2.12194440e-4f;
+    float p = 1.9875691500e-4f;
+    p = p * r + 1.3981999507e-3f;
+    p = p * r + 8.3334519073e-3f;
+    p = p * r + 4.1665795894e-2f;
+    p = p * r + 1.6666665459e-1f;
+    p = p * r + 5.0000001201e-1f;
+    p = p * r * r + r + 1;
+    return p * __builtin_bit_cast(float, (k + 127) << 23);
+}
+
+inline float mish(float x) {
+    const float e = exponential(x < 20 ? x : 20);
+    const float n = e * (e + 2);
+    return x * (n / (n + 2));
+}
+
+template <class Function>
+void each(float* values, int count, Function function) {
+    for (int i = 0; i < count; ++i) values[i] = function(values[i]);
+}
+
+void activate_all(Activation kind, float* v, int n) {
+    switch (kind) {
+        case Activation::identity:
+            return;
+        case Activation::relu:
+            return each(v, n, [](float x) { return x > 0 ? x : 0.0f; });
+        case Activation::mish:
+            return each(v, n, mish);
+        case Activation::silu:
+            return each(v, n, [](float x) { return x / (1 + exponential(-x)); });
+        case Activation::tanh:
+            return each(v, n, [](float x) { return 1 - 2 / (exponential(2 * x) + 1); });
+        case Activation::sigmoid:
+            return each(v, n, [](float x) { return 1 / (1 + exponential(-x)); });
+        case Activation::softplus:
+            return each(v, n, [](float x) {
+                return (x > 0 ? x : 0.0f) + ::log1pf(::expf(x > 0 ? -x : x));
+            });
+        case Activation::square_root:
+            return each(v, n, [](float x) { return ::sqrtf(x > 0 ? x : 0.0f); });
+    }
+}
+
+void store(const float* v, void* out, Format format, std::ptrdiff_t at, int n) {
+    if (format == Format::f32) {
+        float* to = static_cast<float*>(out) + at;
+        for (int i = 0; i < n; ++i) to[i] = v[i];
+    } else if (format == Format::bf16) {
+        auto* to = static_cast<unsigned short*>(out) + at;
+        for (int i = 0; i < n; ++i) {
+            const auto bits = __builtin_bit_cast(unsigned, v[i]);
+            to[i] = static_cast<unsigned short>((bits + 0x7fff + ((bits >> 16) & 1)) >> 16);
+        }
+    } else if (format == Format::u8) {
+        auto* to = static_cast<unsigned char*>(out) + at;
+        for (int i = 0; i < n; ++i)
+            to[i] = static_cast<unsigned char>(static_cast<int>(clamped(v[i], 0, 255) + 0.5f));
+    } else {
+        auto* to = static_cast<signed char*>(out) + at;
+        for (int i = 0; i < n; ++i)
+            to[i] =
+                static_cast<signed char>(static_cast<int>(clamped(v[i], -127, 127) + 128.5f) - 128);
+    }
+}
+
+void transform_chunk(const Transform& t, std::ptrdiff_t row, std::ptrdiff_t factors, int c, int n) {
+    float v[chunk];
+    const float* in = t.in + row + c;
+    for (int i = 0; i < n; ++i) v[i] = in[i];
+    if (t.scale != nullptr)
+        for (int i = 0; i < n; ++i) v[i] *= t.scale[factors + c + i];
+    if (t.shift != nullptr)
+        for (int i = 0; i < n; ++i) v[i] += t.shift[factors + c + i];
+    if (t.residual != nullptr)
+        for (int i = 0; i < n; ++i) v[i] += t.residual[row + c + i];
+    activate_all(t.activation, v, n);
+    if (t.post != nullptr)
+        for (int i = 0; i < n; ++i) v[i] *= t.post[c + i];
+    store(v, t.out, t.format, row + c, n);
+}
+
+void transform(const Transform& t) {
+    std::ptrdiff_t row = 0;
+    for (int position = 0; position < t.positions; ++position)
+        for (int point = 0; point < t.points; ++point, row += t.channels)
+            for (int c = 0; c < t.channels; c += chunk)
+                transform_chunk(t, row, t.step * position, c, smaller(chunk, t.channels - c));
+}
+
+void pool_one(const Pool& p, const float* in, float* out) {
+    float* most = out + std::ptrdiff_t{2} * p.channels;
+    const bool maximum = p.pooling == Pooling::mean_maximum;
+    for (int c = 0; c < p.channels; ++c) out[c] = in[c];
+    if (maximum)
+        for (int c = 0; c < p.channels; ++c) most[c] = in[c];
+    for (int point = 1; point < p.points; ++point) {
+        const float* row = in + std::ptrdiff_t{point} * p.channels;
+        for (int c = 0; c < p.channels; ++c) out[c] += row[c];
+        if (maximum)
+            for (int c = 0; c < p.channels; ++c) most[c] = row[c] > most[c] ? row[c] : most[c];
+    }
+    for (int c = 0; c < p.channels; ++c) out[c] /= static_cast<float>(p.points);
+    if (p.pooling == Pooling::mean) return;
+    const float d = p.side - 14;
+    for (int c = 0; c < p.channels; ++c) out[p.channels + c] = out[c] * (d * 0.1f);
+    if (!maximum)
+        for (int c = 0; c < p.channels; ++c) most[c] = out[c] * (d * d * 0.01f - 0.1f);
+}
+
+void pool(const Pool& p) {
+    const std::ptrdiff_t width = std::ptrdiff_t{p.channels} * (p.pooling == Pooling::mean ? 1 : 3);
+    for (int i = 0; i < p.positions; ++i)
+        pool_one(p, p.in + std::ptrdiff_t{i} * p.points * p.channels, p.out + i * width);
+}
+
+void to_rows(const Turn& t) {
+    const float* planes = t.in;
+    std::ptrdiff_t row = 0;
+    for (int i = 0; i < t.positions; ++i, planes += std::ptrdiff_t{t.points} * t.channels)
+        for (int point = 0; point < t.points; ++point, row += t.channels)
+            for (int c = 0; c < t.channels; c += chunk) {
+                const int n = smaller(chunk, t.channels - c);
+                float v[chunk];
+                for (int j = 0; j < n; ++j) v[j] = planes[std::ptrdiff_t{c + j} * t.points + point];
+                if (t.post != nullptr)
+                    for (int j = 0; j < n; ++j) v[j] *= t.post[c + j];
+                store(v, t.out, t.format, row + c, n);
+            }
+}
+
+void to_planes(const Turn& t) {
+    const float* rows = t.in;
+    float* out = static_cast<float*>(t.out);
+    for (int i = 0; i < t.positions; ++i, rows += std::ptrdiff_t{t.points} * t.channels)
+        for (int c = 0; c < t.channels; ++c, out += t.points)
+            for (int point = 0; point < t.points; ++point)
+                out[point] = rows[std::ptrdiff_t{point} * t.channels + c];
+}
+
+void small_block_of(const Small& s, int row, int first) {
+    float sum[small_block];
+    for (int o = 0; o < small_block; ++o) sum[o] = 0;
+    const float* weights = s.weights + std::ptrdiff_t{first} * s.ins;
+    const float* in = s.in + std::ptrdiff_t{row} * s.ins;
+    for (int i = 0; i < s.ins; ++i, weights += small_block) {
+        const float x = in[i];
+        for (int o = 0; o < small_block; ++o) sum[o] += x * weights[o];
+    }
+    const int n = smaller(small_block, s.outs - first);
+    const std::ptrdiff_t at = std::ptrdiff_t{row} * s.outs + first;
+    if (s.bias != nullptr)
+        for (int o = 0; o < n; ++o) sum[o] += s.bias[first + o];
+    if (s.residual != nullptr)
+        for (int o = 0; o < n; ++o) sum[o] += s.residual[at + o];
+    activate_all(s.activation, sum, n);
+    for (int o = 0; o < n; ++o) s.out[at + o] = sum[o];
+}
+
+// One output: a product of two vectors, sixteen sums at a time.
+float product(const float* a, const float* b, int count) {
+    float sums[16] = {};
+    int i = 0;
+    for (; i + 16 <= count; i += 16)
+        for (int j = 0; j < 16; ++j) sums[j] += a[i + j] * b[i + j];
+    float sum = 0;
+    for (; i < count; ++i) sum += a[i] * b[i];
+    for (int j = 0; j < 16; ++j) sum += sums[j];
+    return sum;
+}
+
+void single(const Small& s) {
+    for (int row = 0; row < s.rows; ++row) {
+        float sum = product(s.in + std::ptrdiff_t{row} * s.ins, s.weights, s.ins);
+        if (s.bias != nullptr) sum += s.bias[0];
+        if (s.residual != nullptr) sum += s.residual[row];
+        s.out[row] = sum;
+    }
+    activate_all(s.activation, s.out, s.rows);
+}
+
+void small(const Small& s) {
+    if (s.outs == 1) return single(s);
+    for (int first = 0; first < s.outs; first += small_block)
+        for (int row = 0; row < s.rows; ++row) small_block_of(s, row, first);
+}
+
+constexpr Kernels loops = {transform, pool, to_rows, to_planes, small};
+
+}  // namespace
+}  // namespace nn::onednn
