@@ -21,6 +21,7 @@ int run_play(Arguments arguments);
 int run_match(Arguments arguments);
 int run_perft(Arguments arguments);
 int run_show(Arguments arguments);
+int run_solve(Arguments arguments);
 int run_uci(Arguments arguments);
 int run_usi(Arguments arguments);
 

@@ -18,6 +18,7 @@ constexpr Subcommand subcommands[] = {
     {"convert", "write foreign weights as ours", protocols::run_convert},
     {"bench", "measure speed, a figure a line", protocols::run_bench},
     {"perft", "count the positions below one", protocols::run_perft},
+    {"solve", "look for the answers of problems", protocols::run_solve},
     {"match", "play engines against each other", protocols::run_match},
 };
 

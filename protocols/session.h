@@ -16,6 +16,7 @@
 #include "engine/base/error.h"
 #include "engine/base/option.h"
 #include "engine/game.h"
+#include "search/mate.h"
 #include "search/searcher.h"
 
 namespace protocols {
@@ -49,6 +50,8 @@ class Session {
     virtual std::string position_text() const = 0;
     // Whether the mover may end the game in its favour by a declaration (shogi's impasse).
     virtual bool can_declare_win() const = 0;
+    // Blocks; from any thread while nothing changes the session. Unknown in games without mate.
+    virtual search::MateResult find_mate(const search::MateLimits& limits) const = 0;
 
     virtual search::SearchParams params() const = 0;
     virtual void set_params(const search::SearchParams& params) = 0;
@@ -147,6 +150,12 @@ class GameSession final : public Session {
         if constexpr (requires(const G& game) { game.can_declare_win(); })
             return now().can_declare_win();
         return false;
+    }
+
+    search::MateResult find_mate(const search::MateLimits& limits) const override {
+        if constexpr (requires(const G& game) { game.position().in_check(); })
+            return search::find_mate(now(), limits);
+        return {};
     }
 
     search::SearchParams params() const override { return searcher_.params(); }

@@ -10,7 +10,8 @@ namespace protocols {
 
 namespace {
 
-constexpr search::Milliseconds report_interval{500};
+// Between two looks at the search, and between two reports of the same depth.
+constexpr search::Milliseconds look_interval{20}, report_interval{500};
 
 std::string lower(std::string_view text) {
     std::string result(text);
@@ -117,6 +118,9 @@ std::vector<UciOption> Uci::common_options() {
                  const bool analyse = yes_or_no("UCI_AnalyseMode", text);
                  change([&](auto& params) { params.early_end = !analyse; });
              }});
+    options.push_back({"UCI_ShowWDL", "type check default false", [this](std::string_view text) {
+                           shows_wdl_ = yes_or_no("UCI_ShowWDL", text);
+                       }});
     return options;
 }
 
@@ -134,8 +138,9 @@ void Uci::serve(std::istream& in) {
             return end_think();
         }
     }
-    if (session_->thinking() && (last_go_.infinite || last_go_.ponder)) return end_think();
+    if (last_go_.infinite || last_go_.ponder) return end_think();
     session_->wait();
+    mate_think_.wait();
 }
 
 bool Uci::handle(std::string_view line) {
@@ -204,10 +209,18 @@ void Uci::go(std::string_view arguments) {
 
 void Uci::think(const GoCommand& go) {
     last_go_ = go;
-    const auto legal = session_->legal_moves();
-    if (!go.infinite && !go.ponder && session_->can_declare_win()) return out_.line("bestmove win");
-    if (!go.infinite && !go.ponder && legal.empty())
+    silenced_ = false;
+    mate_.reset();
+    mate_known_ = false;
+    if (go.mate && dialect_.asks_for_checkmate) return solve(go);
+    const bool answers = !go.infinite && !go.ponder;
+    if (answers && session_->can_declare_win()) return out_.line("bestmove win");
+    if (answers && session_->legal_moves().empty())
         return out_.line(fmt::format("bestmove {}", dialect_.no_move));
+    search(go);
+}
+
+void Uci::search(const GoCommand& go) {
     auto limits = limits_of(go, session_->to_play());
     for (const auto& text : go.search_moves) {
         if (const auto move = session_->move_from_text(text))
@@ -215,15 +228,64 @@ void Uci::think(const GoCommand& go) {
         else
             out_.line(fmt::format("info string searchmoves: {} is not legal here", text));
     }
-    limits.report_every = report_interval;
-    depth_limit_ = go.depth;
-    silenced_ = false;
+    limits.report_every = look_interval;
+    reported_depth_ = 0;
+    reported_at_ = search::Milliseconds(0);
+    if (go.mate) start_mate_think(go);
     session_->start(
-        limits, [this](const auto& picture) { report(picture); },
+        limits, [this](const auto& picture) { progress(picture); },
         [this](const auto& picture) { finish(picture); });
+    // It may have been known before there was a search to interrupt.
+    if (mate_known_) session_->interrupt();
 }
 
-void Uci::stop(std::string_view) { session_->stop(); }
+search::MateLimits Uci::mate_limits(const GoCommand& go) const {
+    search::MateLimits limits;
+    limits.nodes = go.nodes;
+    const auto budget = static_cast<std::size_t>(session_->params().memory_mib) << 20;
+    constexpr std::size_t share = 16;
+    limits.table_bytes = std::min(limits.table_bytes, budget / share);
+    return limits;
+}
+
+// Beside the search, which it ends by a mate, or by there being none when nothing else would.
+void Uci::start_mate_think(const GoCommand& go) {
+    auto limits = mate_limits(go);
+    const auto moves = static_cast<std::uint64_t>(limits.plies + 1) / 2;
+    if (*go.mate > 0 && *go.mate < moves) limits.plies = static_cast<int>(2 * *go.mate - 1);
+    const bool waits = go.infinite || go.ponder;
+    const bool bounded = go.nodes || go.move_time || go.depth || go.has_clock();
+    mate_think_.start(*session_, limits, [this, waits, bounded](const search::MateResult& result) {
+        using Answer = search::MateResult::Answer;
+        mate_ = result;
+        if (waits || result.answer == Answer::unknown) return;
+        if (result.answer == Answer::no_mate && bounded) return;
+        mate_known_ = true;
+        session_->interrupt();
+    });
+}
+
+void Uci::solve(const GoCommand& go) {
+    auto limits = mate_limits(go);
+    limits.checks_only = true;
+    limits.time = search::Milliseconds(std::min(*go.mate, most_milliseconds));
+    mate_think_.start(*session_, limits,
+                      [this](const search::MateResult& result) { tell_solution(result); });
+}
+
+void Uci::tell_solution(const search::MateResult& result) {
+    using Answer = search::MateResult::Answer;
+    if (silenced_) return;
+    const auto* const otherwise = result.answer == Answer::no_mate ? "nomate" : "timeout";
+    out_.line(fmt::format("checkmate {}", result.answer == Answer::mate
+                                              ? session_->line_to_text(result.line)
+                                              : otherwise));
+}
+
+void Uci::stop(std::string_view) {
+    session_->stop();
+    mate_think_.stop();
+}
 
 void Uci::ponder_hit(std::string_view arguments) {
     if (!session_->thinking()) return;
@@ -242,22 +304,53 @@ void Uci::game_over(std::string_view) { end_think(); }
 void Uci::end_think() {
     silenced_ = true;
     session_->stop();
+    mate_think_.stop();
+}
+
+// At each look: a line when the depth has grown, or after some time.
+void Uci::progress(const search::Analysis& picture) {
+    const bool deeper = picture.depth > reported_depth_;
+    if (deeper || picture.elapsed >= reported_at_ + report_interval) report(picture);
+    if (last_go_.depth && picture.depth >= *last_go_.depth) session_->interrupt();
 }
 
 void Uci::report(const search::Analysis& picture) {
     if (silenced_) return;
+    reported_depth_ = picture.depth;
+    reported_at_ = picture.elapsed;
     const auto lines =
         std::min<std::size_t>(static_cast<std::size_t>(multi_pv_), picture.moves.size());
     for (std::size_t rank = 0; rank < lines; ++rank) out_.line(info(picture, rank));
-    if (depth_limit_ && picture.depth >= *depth_limit_) session_->interrupt();
 }
 
 void Uci::finish(const search::Analysis& picture) {
+    mate_think_.stop();
     if (silenced_) return;
     if (!picture.fault.empty())
         out_.line(fmt::format("info string the search broke off: {}", picture.fault));
+    if (tell_mate(picture)) return;
     report(picture);
     out_.line(best_move(picture));
+}
+
+// Whether the mate search has the answer.
+bool Uci::tell_mate(const search::Analysis& picture) {
+    if (!mate_) return false;
+    if (mate_->answer != search::MateResult::Answer::mate) {
+        out_.line("info string found no such mate");
+        return false;
+    }
+    const auto plies = mate_->line.size();
+    const auto line = session_->line_to_text(mate_->line);
+    out_.line(fmt::format("info depth {} seldepth {} time {} nodes {} score mate {} pv {}", plies,
+                          plies, std::max<std::int64_t>(picture.elapsed.count(), 0), mate_->nodes,
+                          (plies + 1) / 2, line));
+    std::istringstream words(line);
+    std::string best, answer;
+    words >> best >> answer;
+    const bool ponder = offers_ponder_ && !answer.empty();
+    out_.line(fmt::format("bestmove {}{}", best, ponder ? " ponder " + answer : ""));
+    return true;
 }
 
 std::string Uci::info(const search::Analysis& picture, std::size_t rank) const {
@@ -266,11 +359,22 @@ std::string Uci::info(const search::Analysis& picture, std::size_t rank) const {
     const auto rate =
         picture.simulations * 1000 / static_cast<std::uint64_t>(std::max<std::int64_t>(time, 1));
     return fmt::format(
-        "info depth {} seldepth {} time {} nodes {} score cp {} hashfull {} nps {} multipv {} pv "
-        "{}",
+        "info depth {} seldepth {} time {} nodes {} score cp {}{} hashfull {} nps {} multipv {} "
+        "pv {}",
         std::max(picture.depth, 1), std::max(picture.deepest, 1), time, picture.simulations,
-        centipawns(move.value), static_cast<int>(1000 * picture.memory_used), rate, rank + 1,
+        centipawns(move.value), wdl(picture, move.value),
+        static_cast<int>(1000 * picture.memory_used), rate, rank + 1,
         session_->line_to_text(move.variation));
+}
+
+// In per mille, and in all 1000: draws as often as among the rollouts, the rest by the value.
+std::string Uci::wdl(const search::Analysis& picture, float value) const {
+    if (!shows_wdl_) return {};
+    const auto whole = [](float share) { return static_cast<int>(std::lround(1000 * share)); };
+    const int draws = whole(std::clamp(picture.draws, 0.0f, 1 - std::abs(value)));
+    const int decided = 1000 - draws;
+    const int wins = std::clamp((decided + whole(value)) / 2, 0, decided);
+    return fmt::format(" wdl {} {} {}", wins, draws, decided - wins);
 }
 
 std::string Uci::best_move(const search::Analysis& picture) const {

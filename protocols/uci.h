@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "protocols/lines.h"
+#include "protocols/mate_think.h"
 #include "protocols/session.h"
 #include "protocols/uci_go.h"
 
@@ -24,12 +25,14 @@ struct Dialect {
     std::string_view no_move;  // bestmove of a side that has none
     bool white_first = true;
     bool knows_resignation = false;
+    // go mate asks for a problem's solution, within milliseconds; else for the move, in moves.
+    bool asks_for_checkmate = false;
 };
 
 inline constexpr Dialect uci_dialect{"uci",    "uciok",  "ucinewgame", "fen", "Hash",
-                                     "Ponder", "(none)", true,         false};
+                                     "Ponder", "(none)", true,         false, false};
 inline constexpr Dialect usi_dialect{"usi",        "usiok",  "usinewgame", "sfen", "USI_Hash",
-                                     "USI_Ponder", "resign", false,        true};
+                                     "USI_Ponder", "resign", false,        true,   true};
 
 // One option as GUIs see it.
 struct UciOption {
@@ -43,6 +46,9 @@ class Uci {
     // `extra`: options that only this game has. `name`: what `id name` answers.
     Uci(const Dialect& dialect, std::unique_ptr<Session> session, std::string name, Output& out,
         std::vector<UciOption> extra = {});
+    ~Uci() { end_think(); }
+    Uci(const Uci&) = delete;
+    Uci& operator=(const Uci&) = delete;
 
     // Until `quit` or the end of input; a think with limits that is under way then is finished.
     void serve(std::istream& in);
@@ -70,11 +76,19 @@ class Uci {
     void ignore(std::string_view) {}
 
     void think(const GoCommand& go);
+    void search(const GoCommand& go);
+    void solve(const GoCommand& go);
+    void start_mate_think(const GoCommand& go);
+    void tell_solution(const search::MateResult& result);
+    void progress(const search::Analysis& picture);
     void report(const search::Analysis& picture);
+    bool tell_mate(const search::Analysis& picture);
     void finish(const search::Analysis& picture);
     void end_think();
     std::string info(const search::Analysis& picture, std::size_t rank) const;
+    std::string wdl(const search::Analysis& picture, float value) const;
     std::string best_move(const search::Analysis& picture) const;
+    search::MateLimits mate_limits(const GoCommand& go) const;
     void change(const std::function<void(search::SearchParams&)>& edit);
 
     const Dialect dialect_;
@@ -85,10 +99,17 @@ class Uci {
 
     int multi_pv_ = 1;
     bool offers_ponder_ = true;
+    bool shows_wdl_ = false;
     int resign_per_mille_ = 0;
-    std::optional<int> depth_limit_;      // of the present think
-    std::atomic<bool> silenced_ = false;  // the present think's bestmove is not wanted
+
+    // The present think.
     GoCommand last_go_;
+    int reported_depth_ = 0;
+    search::Milliseconds reported_at_{0};
+    std::atomic<bool> silenced_ = false;      // its bestmove is not wanted
+    std::optional<search::MateResult> mate_;  // the mate search's to write
+    std::atomic<bool> mate_known_ = false;
+    MateThink mate_think_;
 };
 
 // 100 centipawns are a mean value of about 0.4; `value` in [-1, 1].

@@ -11,9 +11,6 @@ namespace {
 
 using search::Milliseconds;
 
-// A week: longer times only risk overflow.
-constexpr std::int64_t most_milliseconds = std::int64_t{7} * 24 * 3600 * 1000;
-
 std::optional<std::int64_t> number(std::string_view text) {
     std::int64_t value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -24,7 +21,7 @@ std::optional<std::int64_t> number(std::string_view text) {
 }
 
 Milliseconds milliseconds(std::int64_t value) {
-    return Milliseconds(std::clamp<std::int64_t>(value, 0, most_milliseconds));
+    return Milliseconds(std::clamp(value, std::int64_t{0}, std::int64_t{most_milliseconds}));
 }
 
 bool is_keyword(std::string_view word) {
@@ -63,11 +60,10 @@ GoCommand parse_go(std::string_view arguments, bool white_first) {
         if (word == "ponder") go.ponder = true;
         if (listing_moves || word == "infinite" || word == "ponder") continue;
         std::string text;
+        if (word == "mate") go.mate = std::numeric_limits<std::uint64_t>::max();
         if (!(in >> text)) break;
-        if (word == "mate" && text == "infinite")
-            go.mate = std::numeric_limits<std::uint64_t>::max();
-        else if (const auto value = number(text))
-            set_number(go, word, *value, white_first);
+        if (word == "mate" && text == "infinite") continue;
+        if (const auto value = number(text)) set_number(go, word, *value, white_first);
     }
     return go;
 }

@@ -13,6 +13,9 @@
 
 namespace protocols {
 
+// A week: longer times only risk overflow.
+inline constexpr std::uint64_t most_milliseconds = std::uint64_t{7} * 24 * 3600 * 1000;
+
 struct GoCommand {
     // By player: Player::first is White in chess (wtime) and Black in shogi (btime).
     std::array<std::optional<search::Milliseconds>, 2> time;

@@ -29,6 +29,7 @@ struct Analysis {
     std::uint64_t simulations = 0;  // of this think
     float value = 0;                // of the root, as the player to move sees it
     float lead = 0;                 // mean lead of the player to move, where the game counts points
+    float draws = 0;                // share of the rollouts that were drawn
     Milliseconds elapsed{0};
     int depth = 0, deepest = 0;  // mean and greatest length of a simulation's descent
     float memory_used = 0;       // share of the budget, 0..1

@@ -20,6 +20,7 @@ void increase(std::atomic<T>& sum, T amount) {
 void OwnerTally::add(const engine::RolloutResult& result) {
     assert(result.owners.size() <= most_points);
     increase(rollouts_, std::int64_t{1});
+    increase(draws_, std::int64_t{result.outcome == engine::Outcome::draw});
     increase(lead_, static_cast<double>(result.lead));
     points_.store(result.owners.size(), relaxed);
     for (std::size_t i = 0; i < result.owners.size(); ++i)
@@ -27,7 +28,7 @@ void OwnerTally::add(const engine::RolloutResult& result) {
 }
 
 void OwnerTally::reset() {
-    rollouts_ = 0;
+    rollouts_ = draws_ = 0;
     lead_ = 0;
     points_ = 0;
     for (auto& owner : owners_) owner.store(0, relaxed);
@@ -35,6 +36,7 @@ void OwnerTally::reset() {
 
 void OwnerTally::add_to(Sum& sum) const {
     sum.rollouts += rollouts_.load(relaxed);
+    sum.draws += draws_.load(relaxed);
     sum.lead += lead_.load(relaxed);
     const auto points = points_.load(relaxed);
     sum.owners.resize(std::max(sum.owners.size(), points));

@@ -31,7 +31,8 @@ struct Leaf {
     float value = 0;                  // as the player to move sees it
 };
 
-// Sums over rollouts of who owned each point at the end and by how much the first player led.
+// Sums over rollouts of how many were drawn, who owned each point at the end, and by how much the
+// first player led.
 // One thread adds, any thread reads.
 class OwnerTally {
    public:
@@ -42,14 +43,14 @@ class OwnerTally {
 
     // Adds this tally to the sums of several.
     struct Sum {
-        std::int64_t rollouts = 0;
+        std::int64_t rollouts = 0, draws = 0;
         double lead = 0;
         std::vector<double> owners;
     };
     void add_to(Sum& sum) const;
 
    private:
-    std::atomic<std::int64_t> rollouts_ = 0;
+    std::atomic<std::int64_t> rollouts_ = 0, draws_ = 0;
     std::atomic<double> lead_ = 0;
     std::atomic<std::size_t> points_ = 0;
     std::array<std::atomic<std::int32_t>, most_points> owners_{};

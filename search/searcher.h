@@ -382,6 +382,7 @@ void Searcher<G>::add_owners(Analysis& picture) const {
     const double sign = position().to_play() == engine::Player::first ? 1 : -1;
     const double scale = sign / static_cast<double>(sum.rollouts);
     picture.lead = static_cast<float>(scale * sum.lead);
+    picture.draws = static_cast<float>(sum.draws) / static_cast<float>(sum.rollouts);
     for (const double owner : sum.owners)
         picture.owners.push_back(static_cast<float>(scale * owner));
 }

@@ -56,6 +56,31 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+std::string_view take_word(std::string_view& text) {
+    text = trimmed(text);
+    std::size_t end = 0;
+    while (end < text.size() && !is_blank(text[end])) ++end;
+    const auto word = text.substr(0, end);
+    text.remove_prefix(end);
+    return word;
+}
+
+std::string_view take_operation(std::string_view& text) {
+    bool quoted = false;
+    std::size_t end = 0;
+    for (; end < text.size() && (quoted || text[end] != ';'); ++end)
+        if (text[end] == '"') quoted = !quoted;
+    const auto operation = text.substr(0, end);
+    text.remove_prefix(end < text.size() ? end + 1 : end);
+    return trimmed(operation);
+}
+
+std::string_view unquoted(std::string_view text) {
+    if (text.starts_with('"')) text.remove_prefix(1);
+    if (text.ends_with('"')) text.remove_suffix(1);
+    return text;
+}
+
 bool is_ascii(std::string_view text) {
     return std::all_of(text.begin(), text.end(),
                        [](char c) { return static_cast<unsigned char>(c) < 0x80; });

@@ -22,6 +22,13 @@ bool is_utf8(std::string_view text);
 // The same text with U+FFFD for every byte that is no part of well-formed UTF-8.
 std::string repaired_utf8(std::string_view text);
 
+// Takes the next word, up to a blank, off the text.
+std::string_view take_word(std::string_view& text);
+// Takes the next operation of an EPD line, up to a semicolon outside quotes, off the text.
+std::string_view take_operation(std::string_view& text);
+// Without a quote at either end.
+std::string_view unquoted(std::string_view text);
+
 // At most `most` characters of a text from outside, fit for one line of an error message:
 // what is not printable ASCII shows as '?', what is left out as "...".
 std::string excerpt(std::string_view text, std::size_t most = 40);

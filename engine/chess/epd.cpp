@@ -10,27 +10,6 @@ namespace chess {
 
 namespace {
 
-// Takes the next word, up to a blank.
-std::string_view take_word(std::string_view& text) {
-    text = engine::trimmed(text);
-    std::size_t end = 0;
-    while (end < text.size() && !engine::is_blank(text[end])) ++end;
-    const auto word = text.substr(0, end);
-    text.remove_prefix(end);
-    return word;
-}
-
-// Takes the next operation, up to a semicolon outside quotes.
-std::string_view take_operation(std::string_view& text) {
-    bool quoted = false;
-    std::size_t end = 0;
-    for (; end < text.size() && (quoted || text[end] != ';'); ++end)
-        if (text[end] == '"') quoted = !quoted;
-    const auto operation = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return engine::trimmed(operation);
-}
-
 bool starts_with_digit(std::string_view text) {
     text = engine::trimmed(text);
     return !text.empty() && engine::is_digit(text.front());
@@ -42,20 +21,14 @@ std::string take_fen(std::string_view& text) {
     for (int field = 0; field < 6; ++field) {
         if (field >= 4 && !starts_with_digit(text)) break;
         if (field > 0) fen += ' ';
-        fen += take_word(text);
+        fen += engine::take_word(text);
     }
     return fen;
 }
 
-std::string_view unquoted(std::string_view text) {
-    if (text.starts_with('"')) text.remove_prefix(1);
-    if (text.ends_with('"')) text.remove_suffix(1);
-    return text;
-}
-
 std::vector<Move> moves_from(std::string_view text, const Position& position) {
     std::vector<Move> moves;
-    for (auto word = take_word(text); !word.empty(); word = take_word(text)) {
+    for (auto word = engine::take_word(text); !word.empty(); word = engine::take_word(text)) {
         const auto move = move_from_san_or_uci(position, word);
         if (!move)
             engine::fail("EPD: \"{}\" is not a legal move in {}", engine::excerpt(word),
@@ -85,7 +58,7 @@ std::vector<Problem::Points> points_from(std::string_view text, const Position& 
 
 void accept(std::string_view operation, Problem& problem) {
     std::string_view operands = operation;
-    const auto name = take_word(operands);
+    const auto name = engine::take_word(operands);
     operands = engine::trimmed(operands);
     const Position& position = problem.game.position();
     if (name == "bm")
@@ -93,12 +66,12 @@ void accept(std::string_view operation, Problem& problem) {
     else if (name == "am")
         problem.avoid = moves_from(operands, position);
     else if (name == "id")
-        problem.id = unquoted(operands);
+        problem.id = engine::unquoted(operands);
     else if (name == "dm")
         problem.mate_in = engine::parse_number<int>(operands);
     else
         problem.others.emplace_back(operation);
-    if (name == "c0") problem.points = points_from(unquoted(operands), position);
+    if (name == "c0") problem.points = points_from(engine::unquoted(operands), position);
 }
 
 }  // namespace
@@ -107,7 +80,7 @@ Problem problem_from_epd(std::string_view line) {
     Problem problem;
     problem.game = Chess::from_text(take_fen(line));
     while (!engine::trimmed(line).empty())
-        if (const auto operation = take_operation(line); !operation.empty())
+        if (const auto operation = engine::take_operation(line); !operation.empty())
             accept(operation, problem);
     return problem;
 }

@@ -16,6 +16,7 @@
 
 #include "engine/encoding.h"
 #include "engine/game.h"
+#include "engine/shogi/movegen.h"
 #include "engine/shogi/position.h"
 
 namespace shogi {
