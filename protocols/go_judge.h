@@ -26,6 +26,8 @@ class GoJudge {
     bool hasty() const { return hasty_; }
     void set_params(const search::SearchParams& params);
     void forget() { read_.reset(); }
+    // From any thread: cuts short a look that is under way.
+    void interrupt() { searcher_.interrupt(); }
 
    private:
     Looks look(const go::Go& game, const search::Limits& limits);

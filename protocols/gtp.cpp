@@ -175,6 +175,7 @@ void Gtp::arrived(std::string_view line) {
     const std::lock_guard lock(cut_mutex_);
     if (cut_ == Cut::by_none || (cut_ == Cut::by_interrupt && !is_interrupt(line))) return;
     was_cut_ = true;
+    judge_.interrupt();
     session_.interrupt();
 }
 

@@ -189,8 +189,9 @@ class Gtp {
     std::optional<search::Milliseconds> reading_time(engine::Player player) const;
     go::Go root_for(engine::Player player) const;
     Ending read_ending(const go::Go& game, bool clean_up);
+    void allow_cut(Cut cut);
     search::Analysis think(const go::Go& root, const search::Limits& limits,
-                           const AnalysisRequest* reports, Cut cut);
+                           const AnalysisRequest* reports);
     std::string choose(const Errand& errand);
     std::string best_move(const search::Analysis& picture, const Errand& errand);
     std::string genmove(const Errand& errand);

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 // Moves in a row below the threshold before the engine resigns, and visits that make one count.
 constexpr int hopeless_enough = 3;
-constexpr std::uint64_t visits_to_resign = 500;
+constexpr std::uint64_t visits_to_resign = 100;
 
 Milliseconds since(Clock::time_point start) {
     return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
@@ -75,16 +75,22 @@ search::Limits Gtp::move_limits(Player player) {
     return limits;
 }
 
-// Blocks until the think is over or, as `cut` allows, a line of input cuts it short.
+// From here to the end of the next think.
+void Gtp::allow_cut(Cut cut) {
+    const std::lock_guard lock(cut_mutex_);
+    cut_ = cut;
+    was_cut_ = false;
+}
+
+// Blocks until the think is over or, as allow_cut() said, a line of input cuts it short.
 Analysis Gtp::think(const go::Go& root, const search::Limits& limits,
-                    const AnalysisRequest* reports, Cut cut) {
+                    const AnalysisRequest* reports) {
     auto& searcher = session_.searcher();
     searcher.set_position(root);
     searcher.start(limits, reports ? printer(*reports) : Session::Report(), {});
     {
         const std::lock_guard lock(cut_mutex_);
-        cut_ = cut;
-        was_cut_ = false;
+        if (was_cut_) session_.interrupt();  // while the end of the game was read
     }
     if (input_) input_->waiting([this](std::string_view line) { return arrived(line), false; });
     session_.wait();
@@ -123,6 +129,7 @@ Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
 // `resign`.
 std::string Gtp::choose(const Errand& errand) {
     const auto start = Clock::now();
+    allow_cut(errand.cut);
     go::Go game = now();
     game.set_to_play(errand.player);
     auto limits = move_limits(errand.player);
@@ -137,7 +144,7 @@ std::string Gtp::choose(const Errand& errand) {
     if (end.pass) shorten(limits);
     limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());
     if (limits.clock) limits.clock = reduced(*limits.clock, since(start));
-    const auto picture = think(root_for(errand.player), limits, errand.reports, errand.cut);
+    const auto picture = think(root_for(errand.player), limits, errand.reports);
     if (errand.reports) printer (*errand.reports)(picture);
     return end.pass ? "pass" : best_move(picture, errand);
 }
@@ -178,7 +185,8 @@ std::string Gtp::benchmark(Words& words) {
     search::Limits limits;
     limits.simulations = static_cast<std::uint64_t>(words.whole("the visits", 1, 1'000'000'000));
     session_.new_game();
-    const auto picture = think(root_for(now().to_play()), limits, nullptr, Cut::by_interrupt);
+    allow_cut(Cut::by_interrupt);
+    const auto picture = think(root_for(now().to_play()), limits, nullptr);
     const auto time = std::max<double>(static_cast<double>(picture.elapsed.count()), 1);
     return fmt::format(
         "{} simulations in {:.3f} s, {:.0f} a second, {} threads", picture.simulations, time / 1000,
