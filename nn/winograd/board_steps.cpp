@@ -112,7 +112,7 @@ void PointwiseStep::run(Workspace& space) const {
     const float* scale = scale_.size() > 0 ? scale_.data() : nullptr;
     if (excitation_ >= 0) {
         for (int p = 0; p < space.positions; ++p) {
-            float* to = space.scales.data() + p * target_.channels;
+            float* to = space.scales.data() + std::ptrdiff_t{p} * target_.channels;
             std::copy_n(space.vector(excitation_, p), target_.channels, to);
             space.kernels.activate(Curve::sigmoid, to, target_.channels);
         }

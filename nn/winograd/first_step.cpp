@@ -31,7 +31,8 @@ FirstStep::FirstStep(int input, const Tensor& kernel, Target target)
 void FirstStep::run(Workspace& space) const {
     const auto finish = target_.finish(space);
     const float* planes = space.inputs[at(input_)];
-    for (int p = 0; p < space.positions; ++p, planes += planes_ * space.layout.points()) {
+    for (int p = 0; p < space.positions;
+         ++p, planes += std::ptrdiff_t{planes_} * space.layout.points()) {
         encode(space, planes);
         // On a board narrower than the kernel both sides cut it: there are no border classes.
         const bool classes = space.layout.board.side >= kernel_;

@@ -98,11 +98,11 @@ std::vector<int> split_widths(int vectors, int most) {
 }
 
 std::vector<Group> pack_convolution(const Tensor& kernel, const Quantisation& input,
-                                    const Tiling* tiling, int most_width) {
+                                    const Tiling* tiling, int widest) {
     const Packer packer(kernel, input, tiling);
     std::vector<Group> groups;
     int channel = 0;
-    for (const int width : split_widths(padded(kernel.shape[0]) / lanes, most_width)) {
+    for (const int width : split_widths(padded(kernel.shape[0]) / lanes, widest)) {
         groups.push_back(packer.pack(channel, width));
         channel += width * lanes;
     }

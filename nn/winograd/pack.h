@@ -32,7 +32,7 @@ std::vector<int> split_widths(int vectors, int most);
 // A 3x3 convolution by `tiling`, or a 1x1 convolution when that is null. Every (cell, output
 // channel) has a scale of its own, as small as int16 weights and a sum in 32 bits allow.
 std::vector<Group> pack_convolution(const Tensor& kernel, const Quantisation& input,
-                                    const Tiling* tiling, int most_width);
+                                    const Tiling* tiling, int widest);
 
 // [ky][kx][plane][channel]
 Buffer<float> pack_first(const Tensor& kernel);

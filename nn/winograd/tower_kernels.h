@@ -75,10 +75,13 @@ template <class Isa, int width, int rows>
     const auto* weights = block.weights;
     const auto* inputs = block.inputs;
     const auto stride = block.stride;
+    // The weights of the next cell, while this one's are used: they come from far.
+    const std::ptrdiff_t ahead = std::ptrdiff_t{block.pairs} * 2 * lanes * width;
     for (int k = 0; k < block.pairs; ++k, weights += 2 * lanes * width, inputs += 2) {
         typename Isa::Pairs weight[width];
         repeat<width>([&](auto w) __attribute__((always_inline)) {
             weight[w] = Isa::load_pairs(weights + 2 * lanes * w);
+            __builtin_prefetch(weights + ahead + 2 * lanes * w);
         });
         repeat<rows>([&](auto r) __attribute__((always_inline)) {
             const auto input = Isa::broadcast_pair(inputs + r * stride);

@@ -14,8 +14,9 @@ void PoolStep::run(Workspace& space) const {
     float* const mean = space.pooled.data();
     float* const maximum = mean + stride;
     for (int p = 0; p < space.positions; ++p) {
-        space.kernels.pool(
-            {points, stride, space.board(source_) + p * points * stride, mean, maximum});
+        space.kernels.pool({points, stride,
+                            space.board(source_) + std::ptrdiff_t{p} * points * stride, mean,
+                            maximum});
         float* out = std::copy_n(mean, channels_, space.vector(out_, p));
         if (pooling_ == Pooling::mean) continue;
         for (int c = 0; c < channels_; ++c) *out++ = mean[c] * (side * 0.1f);
@@ -42,7 +43,8 @@ void DenseStep::run(Workspace& space) const {
 
 void InputStep::run(Workspace& space) const {
     for (int p = 0; p < space.positions; ++p)
-        std::copy_n(space.inputs[at(input_)] + p * size_, size_, space.vector(out_, p));
+        std::copy_n(space.inputs[at(input_)] + std::ptrdiff_t{p} * size_, size_,
+                    space.vector(out_, p));
 }
 
 void VectorStep::run(Workspace& space) const {

@@ -48,7 +48,8 @@ class WinogradExecutor : public Executor {
     }
     float* store_board(const Result& result, int position, float* out) const {
         const int points = lowered_->layout.points(), stride = padded(result.channels);
-        const float* from = space_.board(result.buffer) + position * points * stride;
+        const float* from =
+            space_.board(result.buffer) + std::ptrdiff_t{position} * points * stride;
         for (int c = 0; c < result.channels; ++c)
             for (int p = 0; p < points; ++p) *out++ = from[p * stride + c];
         return out;

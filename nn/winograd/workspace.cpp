@@ -7,6 +7,7 @@ namespace {
 template <class Number>
 std::vector<Buffer<Number>> buffers_of(const std::vector<std::size_t>& sizes, int positions) {
     std::vector<Buffer<Number>> buffers;
+    buffers.reserve(sizes.size());
     for (const auto size : sizes) buffers.emplace_back(size * static_cast<std::size_t>(positions));
     return buffers;
 }
