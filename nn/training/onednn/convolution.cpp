@@ -1,0 +1,132 @@
+#include "nn/training/onednn/convolution.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace nn::training {
+
+namespace {
+
+using dnnl::memory;
+using Tag = memory::format_tag;
+using Type = memory::data_type;
+
+constexpr auto direct = dnnl::algorithm::convolution_direct;
+const memory::dims& strides() {
+    static const memory::dims one = {1, 1};
+    return one;
+}
+
+template <class Number>
+constexpr Type type_of() {
+    return std::is_same_v<Number, float> ? Type::f32 : Type::bf16;
+}
+
+}  // namespace
+
+template <class Number>
+Convolution<Number>::Convolution(Device& device, const Node& node, Extent input, int board)
+    : device_(device) {
+    const auto& shape = node.weights[0].shape;
+    const memory::dims kernel = {shape[0], shape[1], shape[2], shape[3]};
+    const auto type = type_of<Number>();
+    pad_ = {shape[2] / 2, shape[2] / 2};
+    x_ = {{input.samples, shape[1], board, board}, type, Tag::nChw16c};
+    y_ = {{input.samples, shape[0], board, board}, type, Tag::nChw16c};
+    plain_kernel_ = {kernel, Type::f32, Tag::oihw};
+    any_kernel_ = {kernel, type, Tag::any};
+    any_gradient_ = {kernel, Type::f32, Tag::any};
+    bias_ = {{shape[0]}, Type::f32, Tag::x};
+    plain_ = memory_of(plain_kernel_);
+    make_forward(node.weights.size() > 1);
+    make_backward();
+}
+
+template <class Number>
+void Convolution<Number>::make_forward(bool biased) {
+    using Forward = dnnl::convolution_forward;
+    constexpr auto kind = dnnl::prop_kind::forward_training;
+    const auto description =
+        biased ? Forward::desc(kind, direct, x_, any_kernel_, bias_, y_, strides(), pad_, pad_)
+               : Forward::desc(kind, direct, x_, any_kernel_, y_, strides(), pad_, pad_);
+    hint_ = {description, device_.engine};
+    forward_ = Forward(hint_);
+    forward_kernel_ = memory_of(hint_.weights_desc());
+    if (biased) bias_values_ = memory_of(bias_);
+}
+
+template <class Number>
+void Convolution<Number>::make_backward() {
+    using Data = dnnl::convolution_backward_data;
+    using Weights = dnnl::convolution_backward_weights;
+    const Data::primitive_desc data({direct, x_, any_kernel_, y_, strides(), pad_, pad_},
+                                    device_.engine, hint_);
+    backward_data_ = Data(data);
+    backward_kernel_ = memory_of(data.weights_desc());
+    const Weights::primitive_desc weights({direct, x_, any_gradient_, y_, strides(), pad_, pad_},
+                                          device_.engine, hint_);
+    backward_weights_ = Weights(weights);
+    gradient_ = memory_of(weights.diff_weights_desc());
+    sum_.assign(weights.diff_weights_desc().get_size() / sizeof(float), 0.0f);
+}
+
+template <class Number>
+memory Convolution<Number>::memory_of(const memory::desc& description, void* place) const {
+    return place ? memory(description, device_.engine, place) : memory(description, device_.engine);
+}
+
+template <class Number>
+void Convolution<Number>::reorder(memory& from, memory& to) {
+    dnnl::reorder(from, to).execute(device_.stream, from, to);
+}
+
+template <class Number>
+void Convolution<Number>::load(const float* kernel, const float* bias) {
+    const auto count = plain_kernel_.get_size() / sizeof(float);
+    std::copy_n(kernel, count, static_cast<float*>(plain_.get_data_handle()));
+    reorder(plain_, forward_kernel_);
+    reorder(plain_, backward_kernel_);
+    if (bias)
+        std::copy_n(bias, bias_.get_size() / sizeof(float),
+                    static_cast<float*>(bias_values_.get_data_handle()));
+}
+
+template <class Number>
+void Convolution<Number>::forward(Number* x, Number* y) {
+    std::unordered_map<int, memory> arguments = {{DNNL_ARG_SRC, memory_of(x_, x)},
+                                                 {DNNL_ARG_WEIGHTS, forward_kernel_},
+                                                 {DNNL_ARG_DST, memory_of(y_, y)}};
+    if (bias_values_) arguments[DNNL_ARG_BIAS] = bias_values_;
+    forward_.execute(device_.stream, arguments);
+}
+
+template <class Number>
+void Convolution<Number>::backward_data(Number* y_gradient, Number* x_gradient) {
+    backward_data_.execute(device_.stream, {{DNNL_ARG_DIFF_DST, memory_of(y_, y_gradient)},
+                                            {DNNL_ARG_WEIGHTS, backward_kernel_},
+                                            {DNNL_ARG_DIFF_SRC, memory_of(x_, x_gradient)}});
+}
+
+template <class Number>
+void Convolution<Number>::backward_weights(Number* x, Number* y_gradient) {
+    backward_weights_.execute(device_.stream, {{DNNL_ARG_SRC, memory_of(x_, x)},
+                                               {DNNL_ARG_DIFF_DST, memory_of(y_, y_gradient)},
+                                               {DNNL_ARG_DIFF_WEIGHTS, gradient_}});
+    const auto* const gradient = static_cast<const float*>(gradient_.get_data_handle());
+    for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += gradient[i];
+}
+
+template <class Number>
+void Convolution<Number>::collect(float* kernel) {
+    std::copy(sum_.begin(), sum_.end(), static_cast<float*>(gradient_.get_data_handle()));
+    reorder(gradient_, plain_);
+    const auto* const plain = static_cast<const float*>(plain_.get_data_handle());
+    for (std::size_t i = 0; i < plain_kernel_.get_size() / sizeof(float); ++i)
+        kernel[i] += plain[i];
+    std::fill(sum_.begin(), sum_.end(), 0.0f);
+}
+
+template class Convolution<float>;
+template class Convolution<Bf16>;
+
+}  // namespace nn::training

@@ -1,0 +1,27 @@
+#include "nn/onednn/library.h"
+#include "nn/training/onednn/loops_body.h"
+
+namespace nn::training {
+
+extern const Loops<float> avx512_loops;
+extern const Loops<Bf16> avx512_bf16_loops;
+
+namespace {
+
+struct Portable;
+
+}  // namespace
+
+template <>
+const Loops<float>& loops<float>() {
+    static constexpr auto portable = LoopsBody<Portable, float>::table();
+    return onednn::has_avx512() ? avx512_loops : portable;
+}
+
+template <>
+const Loops<Bf16>& loops<Bf16>() {
+    static constexpr auto portable = LoopsBody<Portable, Bf16>::table();
+    return onednn::has_avx512() ? avx512_bf16_loops : portable;
+}
+
+}  // namespace nn::training
