@@ -19,6 +19,26 @@ void add_search_flags(CLI::App& app, search::SearchParams& params) {
     }
 }
 
+void add_network_flags(CLI::App& app, NetworkFlags& flags) {
+    app.add_option("--weights", flags.weights,
+                   "network of sanban, KataGo, lc0 or Leela Zero; a bare name is looked for beside "
+                   "the executable, in the working folder and in the data folder");
+    app.add_option_function<std::string>(
+        "--precision",
+        [&flags](const std::string& text) { flags.precision = parse_precision(text); },
+        "in which the network is run: fp32");
+}
+
+void check_method(const search::SearchParams& params, const NetworkFlags& flags) {
+    if (params.method == search::Method::puct && flags.weights.empty())
+        engine::fail("--search puct needs a network: --weights FILE");
+}
+
+nn::Precision parse_precision(std::string_view text) {
+    if (const auto precision = nn::precision_from(text)) return *precision;
+    engine::fail("{} is no precision that networks are run in", text);
+}
+
 std::optional<int> parse_flags(CLI::App& app, Arguments arguments) {
     try {
         // CLI11 passes over the first word, which here is the subcommand's name.

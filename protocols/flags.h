@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
 
+#include "nn/executor.h"
 #include "protocols/commands.h"
 #include "search/params.h"
 
@@ -11,6 +13,19 @@ namespace protocols {
 
 // A bad value fails with engine::Error when the line is parsed. `params` must outlive `app`.
 void add_search_flags(CLI::App& app, search::SearchParams& params);
+
+// Where weights come from and in what precision they run.
+struct NetworkFlags {
+    std::string weights;  // empty: none
+    nn::Precision precision = nn::Precision::fp32;
+};
+
+// `flags` must outlive `app`.
+void add_network_flags(CLI::App& app, NetworkFlags& flags);
+// Fails when the search that was asked for needs a network and none was named.
+void check_method(const search::SearchParams& params, const NetworkFlags& flags);
+// Fails where there is none of that name.
+nn::Precision parse_precision(std::string_view text);
 
 // Parses what stands behind the subcommand's name; an exit status when that was all there is to do
 // (--help, wrong usage).

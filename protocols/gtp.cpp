@@ -108,6 +108,9 @@ const Gtp::Command Gtp::table_[] = {
     {"final_status_list", &Gtp::final_status_list, "alive|seki|dead", "stones of that fate"},
     {"final_status", &Gtp::final_status, "VERTEX", "fate of one stone"},
 
+    {"kata-raw-nn", &Gtp::kata_raw_nn, "[COLOUR] 0-7|all", "what the network says, as KataGo does"},
+    {"heatmap", &Gtp::heatmap, "[all|average|0-7]", "what it says, as Leela Zero does"},
+
     {"gogui-analyze_commands", &Gtp::gogui_commands, "", "what GoGui can show"},
     {"gogui-interrupt", &Gtp::nothing, "", "genmove may be cut short by `# interrupt`"},
     {"gogui-title", &Gtp::gogui_title, "", "title for the window"},
@@ -123,7 +126,7 @@ const Gtp::Command Gtp::table_[] = {
     {"kata-list-params", &Gtp::list_params, "", "names for kata-get-param"},
     {"kata-get-params", &Gtp::all_params, "", "all parameters, as JSON"},
     {"kata-get-param", &Gtp::param, "NAME", "a parameter's value"},
-    {"kata-set-param", &Gtp::set_param, "NAME VALUE", "set a parameter"},
+    {"kata-set-param", &Gtp::set_param, "NAME VALUE...", "set a parameter; WeightsFile: a network"},
     {"kata-set-params", &Gtp::set_params, "JSON...", "set several"},
 };
 
@@ -143,6 +146,7 @@ std::string Gtp::manual() {
 Gtp::Gtp(const GtpSettings& settings, const search::SearchParams& params, Output& out)
     : settings_(settings), out_(out), session_(params), judge_(params) {
     restart(go::Go(settings.size, go::Komi::from_points(settings.komi), settings.rules));
+    if (!settings.weights.empty()) session_.load_network(settings.weights, settings.precision);
 }
 
 Gtp::~Gtp() { session_.stop(); }

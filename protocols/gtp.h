@@ -37,6 +37,8 @@ struct GtpSettings {
     std::uint64_t visits = 0;       // likewise, those kept from earlier moves counted
     double resign_below = 0.1;      // winrate; 0: never
     bool ponder = false;
+    std::string weights;  // of the network; empty: none
+    nn::Precision precision = nn::Precision::fp32;
 };
 
 class Gtp {
@@ -158,6 +160,12 @@ class Gtp {
     std::string final_status_list(Words& words);
     std::string final_status(Words& words);
 
+    // gtp_network.cpp
+    std::string kata_raw_nn(Words& words);
+    std::string heatmap(Words& words);
+    search::Evaluation ask_network(const go::Go& game, const engine::MoveList& moves,
+                                   int symmetry) const;
+
     // gtp_gogui.cpp
     std::string gogui_commands(Words&);
     std::string gogui_ownership(Words&);
@@ -179,6 +187,7 @@ class Gtp {
     go::Go with_stones(Words& words) const;
     void start_handicap(std::span<const go::Point> points);
     void change_params(std::string_view row, std::string_view value);
+    void load_weights(const std::string& file);
     go::Point vertex_of(std::string_view text) const;
     std::string points_text(std::span<const go::Point> points) const;
     std::string result_text();

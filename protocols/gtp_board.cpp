@@ -84,7 +84,11 @@ bool Gtp::board_empty() const {
     return stones[0].none() && stones[1].none();
 }
 
-void Gtp::resize(int size) { restart(emptied(now(), size)); }
+void Gtp::resize(int size) {
+    const auto start = emptied(now(), size);
+    session_.searcher().check(start);
+    restart(start);
+}
 
 std::string Gtp::board_size(Words& words) {
     const int size = words.whole("the size", go::min_size, go::max_size);

@@ -18,6 +18,8 @@ int run_gtp_from(Arguments arguments, std::string_view first_line) {
     search::SearchParams params;
     params.threads = default_threads();
     add_search_flags(app, params);
+    NetworkFlags network;
+    add_network_flags(app, network);
     std::string rules = "chinese";
     bool manual = false;
     app.add_option("--name", settings.name, "what the engine calls itself")->capture_default_str();
@@ -41,6 +43,9 @@ int run_gtp_from(Arguments arguments, std::string_view first_line) {
     if (const auto status = parse_flags(app, arguments)) return *status;
     if (manual) return fmt::print("{}", Gtp::manual()), 0;
     settings.rules = go::rules_from_text(rules);
+    check_method(params, network);
+    settings.weights = network.weights;
+    settings.precision = network.precision;
     Output output(std::cout);
     Gtp gtp(settings, params, output);
     if (gtp.handle(first_line)) gtp.serve(std::cin);

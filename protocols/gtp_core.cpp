@@ -163,6 +163,7 @@ std::string Gtp::set_option(Words& words) {
     value = words.rest();
     for (const auto& parameter : parameters)
         if (parameter.lz == name && !name.empty()) return parameter.write(settings_, value), "";
+    if (name == "WeightsFile") return load_weights(value), "";
     // In centiseconds.
     if (name == "Lagbuffer") value = std::to_string(10 * within<int>(name, value, 0, 1000));
     change_params(row_of(name), value);
@@ -197,7 +198,9 @@ std::string Gtp::param(Words& words) {
 }
 
 std::string Gtp::set_param(Words& words) {
-    const auto name = words.take("the name"), value = words.take("the value");
+    const auto name = words.take("the name");
+    if (name == "WeightsFile") return load_weights(std::string(words.rest())), "";
+    const auto value = words.take("the value");
     for (const auto& parameter : parameters)
         if (parameter.kata == name) return parameter.write(settings_, value), "";
     change_params(row_of(name), value);
@@ -220,6 +223,12 @@ std::string Gtp::set_params(Words& words) {
         throw;
     }
     return "";
+}
+
+// By an empty name none.
+void Gtp::load_weights(const std::string& file) {
+    session_.load_network(file, settings_.precision);
+    settings_.weights = file;
 }
 
 void Gtp::change_params(std::string_view row, std::string_view value) {

@@ -1,5 +1,6 @@
 // GTP commands that think: moves and scores.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +42,13 @@ void shorten(search::Limits& limits) {
 void avoid_own_eyes(const go::Go& game, std::vector<go::Move>& avoid) {
     for (const go::Move move : game.legal_moves())
         if (game.fills_own_eye(move)) avoid.push_back(move);
+}
+
+// Where the search broke off before it knew any.
+std::string any_move(const go::Go& game) {
+    for (const auto move : game.legal_moves())
+        if (move != go::Go::pass && !game.fills_own_eye(move)) return game.move_to_text(move);
+    return "pass";
 }
 
 // With so few moves played a game is not given up, however it stands; a handicap makes White
@@ -99,7 +107,8 @@ Analysis Gtp::think(const go::Go& root, const search::Limits& limits,
         cut_ = Cut::by_none;
     }
     remember(root);
-    if (!last_picture_.fault.empty()) engine::fail("the search broke off: {}", last_picture_.fault);
+    if (!last_picture_.fault.empty())
+        spdlog::error("the search broke off: {}", last_picture_.fault);
     return last_picture_;
 }
 
@@ -156,7 +165,7 @@ std::string Gtp::best_move(const Analysis& picture, const Errand& errand) {
     const auto best =
         std::find_if(picture.moves.begin(), picture.moves.end(),
                      [&](const search::MoveAnalysis& move) { return game.legal(move.move); });
-    if (best == picture.moves.end()) return "pass";
+    if (best == picture.moves.end()) return picture.fault.empty() ? "pass" : any_move(game);
     const bool hopeless = winrate(best->value) < settings_.resign_below &&
                           picture.visits >= visits_to_resign && !errand.cleans_up &&
                           !too_early_to_resign(game);

@@ -17,6 +17,8 @@
 #include "engine/base/option.h"
 #include "engine/game.h"
 #include "search/mate.h"
+#include "search/network.h"
+#include "search/network_evaluator.h"
 #include "search/searcher.h"
 
 namespace protocols {
@@ -55,6 +57,11 @@ class Session {
 
     virtual search::SearchParams params() const = 0;
     virtual void set_params(const search::SearchParams& params) = 0;
+    // Searches with the network of this file from now on; with games played out when the name is
+    // empty. Fails, all being as before, when the file or its game or board is wrong.
+    virtual void load_network(const std::string& file, nn::Precision precision) = 0;
+    // Where the network's policy has a legal move; 0 without a network.
+    virtual int policy_index(engine::Move move) const = 0;
 
     // As search::Searcher's.
     virtual void start(const search::Limits& limits, Report report, Report done) = 0;
@@ -160,6 +167,25 @@ class GameSession final : public Session {
 
     search::SearchParams params() const override { return searcher_.params(); }
     void set_params(const search::SearchParams& params) override { searcher_.set_params(params); }
+
+    void load_network(const std::string& file, nn::Precision precision) override {
+        if (file.empty()) return searcher_.set_network(nullptr);
+        if constexpr (engine::Encoded<G>) {
+            auto network = search::load_network(file, precision);
+            auto source = std::make_shared<search::NetworkSource<G>>(std::move(network));
+            source->check(now());
+            searcher_.set_network(nullptr);
+            searcher_.set_position(now());
+            searcher_.set_network(std::move(source));
+        } else {
+            engine::fail("no network plays {}", G::name);
+        }
+    }
+
+    int policy_index(engine::Move move) const override {
+        const auto& network = searcher_.network();
+        return network ? network->policy_index(now(), move) : 0;
+    }
 
     void start(const search::Limits& limits, Report report, Report done) override {
         searcher_.set_position(now());

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
+
+#include "protocols/uci_stats.h"
 
 namespace protocols {
 
@@ -99,6 +102,12 @@ std::vector<UciOption> Uci::common_options() {
         number(dialect_.knows_resignation ? "NetworkDelay" : "Move Overhead", "lag"),
         number("Seed", "seed")};
     options.push_back(
+        {"VerboseMoveStats", "type check default false",
+         [this](std::string_view text) { verbose_ = yes_or_no("VerboseMoveStats", text); }});
+    options.push_back({"WeightsFile", "type string default <empty>", [this](std::string_view text) {
+                           set_network(text == "<empty>" ? "" : std::string(text), precision_);
+                       }});
+    options.push_back(
         {"MultiPV", "type spin default 1 min 1 max 256",
          [this](std::string_view text) { multi_pv_ = number_within("MultiPV", text, 1, 256); }});
     options.push_back({std::string(dialect_.ponder_option), "type check default true",
@@ -167,7 +176,27 @@ void Uci::hello(std::string_view) {
     out_.line(dialect_.hello_done);
 }
 
-void Uci::is_ready(std::string_view) { out_.line("readyok"); }
+void Uci::is_ready(std::string_view) {
+    try {
+        load_network();
+    } catch (const engine::Error& error) {
+        // The GUI waits for its answer whatever happens.
+        out_.line(fmt::format("info string error: {}", error.what()));
+    }
+    out_.line("readyok");
+}
+
+void Uci::set_network(const std::string& file, nn::Precision precision) {
+    weights_ = file;
+    precision_ = precision;
+    network_due_ = true;
+}
+
+void Uci::load_network() {
+    if (!std::exchange(network_due_, false)) return;
+    end_think();
+    session_->load_network(weights_, precision_);
+}
 
 void Uci::set_option(std::string_view arguments) {
     const auto [name, value] = name_and_value(arguments);
@@ -204,6 +233,11 @@ void Uci::position(std::string_view arguments) {
 
 void Uci::go(std::string_view arguments) {
     end_think();
+    try {
+        load_network();
+    } catch (const engine::Error& error) {
+        out_.line(fmt::format("info string error: {}", error.what()));
+    }
     think(parse_go(arguments, dialect_.white_first));
 }
 
@@ -330,6 +364,8 @@ void Uci::finish(const search::Analysis& picture) {
         out_.line(fmt::format("info string the search broke off: {}", picture.fault));
     if (tell_mate(picture)) return;
     report(picture);
+    if (verbose_)
+        for (const auto& line : verbose_stats(*session_, picture)) out_.line(line);
     out_.line(best_move(picture));
 }
 

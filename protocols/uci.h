@@ -50,6 +50,9 @@ class Uci {
     Uci(const Uci&) = delete;
     Uci& operator=(const Uci&) = delete;
 
+    // The network to load before the first think; `uci` is answered before.
+    void set_network(const std::string& file, nn::Precision precision);
+
     // Until `quit` or the end of input; a think with limits that is under way then is finished.
     void serve(std::istream& in);
     // One line; false for `quit`.
@@ -85,6 +88,7 @@ class Uci {
     bool tell_mate(const search::Analysis& picture);
     void finish(const search::Analysis& picture);
     void end_think();
+    void load_network();
     std::string info(const search::Analysis& picture, std::size_t rank) const;
     std::string wdl(const search::Analysis& picture, float value) const;
     std::string best_move(const search::Analysis& picture) const;
@@ -96,6 +100,11 @@ class Uci {
     std::string name_;
     Output& out_;
     std::vector<UciOption> options_;
+
+    std::string weights_;
+    nn::Precision precision_ = nn::Precision::fp32;
+    bool verbose_ = false;
+    bool network_due_ = false;  // weights_ and precision_ are not in force yet
 
     int multi_pv_ = 1;
     bool offers_ponder_ = true;

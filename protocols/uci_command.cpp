@@ -18,12 +18,14 @@ namespace {
 
 struct UciFlags {
     search::SearchParams params;
+    NetworkFlags network;
     std::string name = "sanban " SANBAN_VERSION;
 };
 
 void add_flags(CLI::App& app, UciFlags& flags) {
     flags.params.threads = default_threads();
     add_search_flags(app, flags.params);
+    add_network_flags(app, flags.network);
     app.add_option("--name", flags.name, "what the engine calls itself")->capture_default_str();
 }
 
@@ -31,6 +33,8 @@ int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session
           std::vector<UciOption> extra, std::string_view first_line) {
     Output output(std::cout);
     Uci uci(dialect, std::move(session), flags.name, output, std::move(extra));
+    if (!flags.network.weights.empty())
+        uci.set_network(flags.network.weights, flags.network.precision);
     if (uci.handle(first_line)) uci.serve(std::cin);
     return 0;
 }
@@ -91,6 +95,7 @@ int run_uci_from(Arguments arguments, std::string_view first_line) {
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
+    check_method(flags.params, flags.network);
     auto session = std::make_unique<GameSession<chess::Chess>>(flags.params);
     auto option = chess960(*session);
     return serve(uci_dialect, flags, std::move(session), {std::move(option)}, first_line);
@@ -101,6 +106,7 @@ int run_usi_from(Arguments arguments, std::string_view first_line) {
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
+    check_method(flags.params, flags.network);
     auto session = std::make_unique<GameSession<shogi::Shogi>>(flags.params);
     auto options = shogi_options(*session, std::make_shared<ShogiRules>());
     return serve(usi_dialect, flags, std::move(session), std::move(options), first_line);

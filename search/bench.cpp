@@ -1,6 +1,8 @@
 #include "search/bench.h"
 
 #include <chrono>
+#include <memory>
+#include <span>
 
 #include "engine/games.h"
 #include "search/searcher.h"
@@ -56,6 +58,61 @@ double simulations_per_second(const go::Go& game, double seconds) {
     return static_cast<double>(picture.simulations) / took.count();
 }
 
+// What a network of no cost would say: priors and values that differ from position to position.
+template <engine::Game G>
+class FreeEvaluator final : public Evaluator<G> {
+   public:
+    void evaluate(std::span<const Query<G>> queries) override {
+        for (const auto& query : queries) answer(query);
+    }
+    int symmetries(const G&) const override { return 1; }
+    std::uint64_t key(const G& game) const override { return game.key(); }
+
+   private:
+    static void answer(const Query<G>& query) {
+        const auto count = static_cast<std::size_t>(query.moves->size());
+        auto noise = query.game->key();
+        auto& priors = query.answer->priors;
+        priors.resize(count);
+        float sum = 0;
+        for (float& prior : priors) {
+            noise = noise * 6364136223846793005u + 1442695040888963407u;
+            const auto drawn = static_cast<float>(noise >> 40) / (1 << 24);
+            sum += prior = drawn * drawn * drawn;
+        }
+        for (float& prior : priors) prior /= sum;
+        query.answer->win = static_cast<float>(noise >> 44 & 0xffff) / 65536;
+        query.answer->loss = 1 - query.answer->win;
+    }
+};
+
+template <engine::Game G>
+class FreeSource final : public EvaluatorSource<G> {
+   public:
+    std::unique_ptr<Evaluator<G>> make_evaluator() const override {
+        return std::make_unique<FreeEvaluator<G>>();
+    }
+    std::string_view name() const override { return "free"; }
+    void check(const G&) const override {}
+    int policy_index(const G&, Move) const override { return 0; }
+};
+
+// Simulations a second of all threads together under PUCT with an evaluator that costs nothing.
+template <engine::Game G>
+double puct_per_second(const G& game, int threads, double seconds) {
+    auto params = one_thread();
+    params.memory_mib = 2048;
+    params.threads = threads;
+    Searcher<G> searcher(params);
+    searcher.set_position(game);
+    searcher.set_network(std::make_shared<FreeSource<G>>());
+    Limits limits;
+    limits.time = Milliseconds(static_cast<std::int64_t>(seconds * 1000));
+    const auto picture = searcher.think(limits);
+    const std::chrono::duration<double> took = picture.elapsed;
+    return static_cast<double>(picture.simulations) / took.count();
+}
+
 }  // namespace
 
 std::uint32_t signature(std::uint64_t simulations) {
@@ -72,6 +129,11 @@ std::vector<engine::Figure> bench_search(double seconds) {
         {"signature", static_cast<double>(signature()), "hash"},
         {"go9_uct_sims", simulations_per_second(go::Go(9), seconds), "simulations/s"},
         {"go19_uct_sims", simulations_per_second(go::Go(19), seconds), "simulations/s"},
+        {"chess_sims", puct_per_second(chess::Chess{}, 1, seconds), "simulations/s"},
+        {"shogi_sims", puct_per_second(shogi::Shogi{}, 1, seconds), "simulations/s"},
+        {"go9_sims", puct_per_second(go::Go(9), 1, seconds), "simulations/s"},
+        {"go19_sims", puct_per_second(go::Go(19), 1, seconds), "simulations/s"},
+        {"chess_sims_2_threads", puct_per_second(chess::Chess{}, 2, seconds), "simulations/s"},
         {"node_bytes", static_cast<double>(sizeof(Node)), "bytes"},
         {"edge_bytes", static_cast<double>(sizeof(Edge)), "bytes"},
     };

@@ -12,8 +12,9 @@ namespace search {
 // of every game, one thread, one seed, `simulations` each. The same on every x86-64.
 std::uint32_t signature(std::uint64_t simulations = 3000);
 
-// `signature`, the simulations a second of one thread from the empty Go boards, and the bytes of
-// a node and an edge. Blocks for `seconds` a speed.
+// `signature`, the simulations a second of one thread from the empty Go boards, the same of every
+// game under PUCT with an evaluator that costs nothing, and the bytes of a node and an edge.
+// Blocks for `seconds` a speed.
 std::vector<engine::Figure> bench_search(double seconds = 1);
 
 }  // namespace search

@@ -78,6 +78,8 @@ class EvaluatorSource {
     virtual std::string_view name() const = 0;
     // Fails, naming both, when the network does not serve the board of this game.
     virtual void check(const G& game) const = 0;
+    // Where the network's policy has this move.
+    virtual int policy_index(const G& game, engine::Move move) const = 0;
 };
 
 }  // namespace search

@@ -24,7 +24,17 @@ void OwnerTally::add(const engine::RolloutResult& result) {
     increase(lead_, static_cast<double>(result.lead));
     points_.store(result.owners.size(), relaxed);
     for (std::size_t i = 0; i < result.owners.size(); ++i)
-        increase(owners_[i], std::int32_t{result.owners[i]});
+        increase(owners_[i], unit * result.owners[i]);
+}
+
+void OwnerTally::add(std::span<const float> owners, float lead, float sign) {
+    assert(owners.size() <= most_points);
+    increase(rollouts_, std::int64_t{1});
+    increase(lead_, static_cast<double>(sign * lead));
+    points_.store(owners.size(), relaxed);
+    const float scale = sign * static_cast<float>(unit);
+    for (std::size_t i = 0; i < owners.size(); ++i)
+        increase(owners_[i], static_cast<std::int64_t>(scale * owners[i]));
 }
 
 void OwnerTally::reset() {
@@ -40,7 +50,8 @@ void OwnerTally::add_to(Sum& sum) const {
     sum.lead += lead_.load(relaxed);
     const auto points = points_.load(relaxed);
     sum.owners.resize(std::max(sum.owners.size(), points));
-    for (std::size_t i = 0; i < points; ++i) sum.owners[i] += owners_[i].load(relaxed);
+    for (std::size_t i = 0; i < points; ++i)
+        sum.owners[i] += static_cast<double>(owners_[i].load(relaxed)) / double{unit};
 }
 
 }  // namespace search

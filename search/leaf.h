@@ -32,18 +32,20 @@ struct Leaf {
 };
 
 // Sums over rollouts of how many were drawn, who owned each point at the end, and by how much the
-// first player led.
-// One thread adds, any thread reads.
+// first player led; over a network's answers the last two. One thread adds, any thread reads.
 class OwnerTally {
    public:
     static constexpr std::size_t most_points = 1024;
+    static constexpr std::int64_t unit = 1 << 12;  // of an owner's sum
 
     void add(const engine::RolloutResult& result);
+    // What a network expects, `sign` being 1 where the first player is to move, else -1.
+    void add(std::span<const float> owners, float lead, float sign);
     void reset();
 
     // Adds this tally to the sums of several.
     struct Sum {
-        std::int64_t rollouts = 0, draws = 0;
+        std::int64_t rollouts = 0, draws = 0;  // rollouts: or answers
         double lead = 0;
         std::vector<double> owners;
     };
@@ -53,7 +55,7 @@ class OwnerTally {
     std::atomic<std::int64_t> rollouts_ = 0, draws_ = 0;
     std::atomic<double> lead_ = 0;
     std::atomic<std::size_t> points_ = 0;
-    std::array<std::atomic<std::int32_t>, most_points> owners_{};
+    std::array<std::atomic<std::int64_t>, most_points> owners_{};
 };
 
 template <engine::Game G>

@@ -199,6 +199,10 @@ class NetworkSource final : public EvaluatorSource<G> {
         network_->check(shape.planes, shape.globals, shape.policy_size, shape.height);
     }
 
+    int policy_index(const G& game, engine::Move move) const override {
+        return encoding_->policy_index(game, move);
+    }
+
    private:
     std::shared_ptr<const Network> network_;
     const engine::Encoding<G>* encoding_ = nullptr;

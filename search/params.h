@@ -1,11 +1,20 @@
 // The tunables of the search, each declared once.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
+
 #include "engine/base/option.h"
 
 namespace search {
 
+// How a search goes about it; without a network always by games played out.
+enum class Method : std::uint8_t { automatic, uct, puct };
+inline constexpr std::array<std::string_view, 3> method_names = {"auto", "uct", "puct"};
+
 struct SearchParams {
+    Method method = Method::automatic;
     int threads = 1;
     int memory_mib = 1024;  // tree, tables and caches together
     int seed = 1;
@@ -14,16 +23,25 @@ struct SearchParams {
     float rave = 1000;              // own visits that weigh as much as AMAF; 0: plain UCB1
     float rave_exploration = 0.1f;  // c of UCB1 under RAVE, which explores by itself
     float prior_visits = 30;        // AMAF visits that a move's prior counts for under RAVE
-    int expand_after = 1;           // visits at which a leaf gets children
-    int lag_ms = 20;                // least reserve on the clock; what is measured comes on top
-    bool early_end = true;          // of clocked and counted thinks whose best move is settled
+    float cpuct = 1.25f;            // c of PUCT
+    float cpuct_base = 19652, cpuct_factor = 1;
+    float fpu_reduction = 0.25f, root_fpu_reduction = 0.25f;
+    float virtual_loss = 1;
+    int batch = 1;  // leaves that a worker asks the network about at once
+    bool root_symmetries = false;
+    int expand_after = 1;   // visits at which a leaf gets children
+    int lag_ms = 20;        // least reserve on the clock; what is measured comes on top
+    bool early_end = true;  // of clocked and counted thinks whose best move is settled
     bool early_end_timed = false;
 
     static constexpr auto options() {
+        using engine::Choice;
         using engine::Flag;
         using engine::Option;
         using P = SearchParams;
         return std::tuple{
+            Choice<P, Method>{"search", &P::method, method_names,
+                              "auto: puct with a network, uct (games played out) without"},
             Option<P, int>{"threads", &P::threads, 1, 1024, "worker threads"},
             Option<P, int>{"memory", &P::memory_mib, 16, 1 << 20, "MiB for tree and caches"},
             Option<P, int>{"seed", &P::seed, 0, 0x7fffffff, "of all randomness"},
@@ -36,6 +54,19 @@ struct SearchParams {
                              "c of UCB1 with RAVE"},
             Option<P, float>{"prior-visits", &P::prior_visits, 0, 1e6f,
                              "AMAF visits that a rollout policy's opinion of a move counts for"},
+            Option<P, float>{"cpuct", &P::cpuct, 0, 100, "c of PUCT"},
+            Option<P, float>{"cpuct-factor", &P::cpuct_factor, 0, 100,
+                             "growth of c with the logarithm of visits; 0: constant"},
+            Option<P, float>{"cpuct-base", &P::cpuct_base, 1, 1e9f, "visits at which c grows"},
+            Option<P, float>{"fpu-reduction", &P::fpu_reduction, -10, 10,
+                             "how much worse than its parent an unvisited move is taken to be"},
+            Option<P, float>{"root-fpu-reduction", &P::root_fpu_reduction, -10, 10,
+                             "likewise at the root"},
+            Option<P, float>{"virtual-loss", &P::virtual_loss, 0, 100,
+                             "losses that a visit under way counts (puct)"},
+            Option<P, int>{"batch", &P::batch, 1, 8, "positions a worker evaluates at once"},
+            Flag<P>{"root-symmetries", &P::root_symmetries,
+                    "average the network over all symmetries at the root"},
             Option<P, int>{"expand-after", &P::expand_after, 1, 1000,
                            "visits at which a leaf gets children"},
             Option<P, int>{"lag", &P::lag_ms, 0, 10000,

@@ -12,15 +12,19 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/game.h"
 #include "search/analysis.h"
+#include "search/cached_evaluator.h"
 #include "search/clock.h"
 #include "search/crew.h"
 #include "search/limits.h"
+#include "search/network_leaf.h"
 #include "search/params.h"
+#include "search/symmetry_evaluator.h"
 #include "search/tree_search.h"
 #include "search/worker.h"
 
@@ -40,6 +44,16 @@ class Searcher {
     // A changed memory budget forgets the tree; changed threads or seed start new workers.
     void set_params(const SearchParams& params);
     const SearchParams& params() const { return params_; }
+
+    // Searches with this network from now on, with games played out when it is none; forgets the
+    // tree. Fails, all being as before, when the network does not serve the present board.
+    void set_network(std::shared_ptr<const EvaluatorSource<G>> network);
+    bool has_network() const { return network_ != nullptr; }
+    const std::shared_ptr<const EvaluatorSource<G>>& network() const { return network_; }
+    // Fails when the network, if there is one, does not serve the board of this game.
+    void check(const G& game) const {
+        if (uses_network()) network_->check(game);
+    }
 
     const G& position() const { return search_->root(); }
     // The position to think about. Keeps the part of the tree that the position shares when it
@@ -78,6 +92,8 @@ class Searcher {
     using Clock = std::chrono::steady_clock;
 
     void rebuild(const SearchParams& params);
+    bool uses_network() const { return network_ && params_.method != Method::uct; }
+    std::unique_ptr<LeafEvaluator<G>> make_leaf_evaluator(std::uint64_t seed) const;
     void hire();
     void reset_tallies();
     void begin(const Limits& limits);
@@ -93,6 +109,8 @@ class Searcher {
     }
 
     SearchParams params_;
+    std::shared_ptr<const EvaluatorSource<G>> network_;
+    std::shared_ptr<EvaluationCache> cache_;  // with a network
     std::unique_ptr<TreeSearch<G>> search_;
     std::vector<std::unique_ptr<Worker<G>>> workers_;
     LagMeter late_;
@@ -123,8 +141,34 @@ void Searcher<G>::rebuild(const SearchParams& params) {
     params_ = params;
     const std::lock_guard lock(picture_mutex_);
     search_.reset();
-    search_ = std::make_unique<TreeSearch<G>>(params);
+    cache_.reset();
+    auto for_tree = params;
+    if (uses_network()) {
+        // An eighth of the budget remembers what the network said.
+        const int mebibytes = params.memory_mib / 8;
+        cache_ = std::make_shared<EvaluationCache>(static_cast<std::size_t>(mebibytes) << 20);
+        for_tree.memory_mib -= mebibytes;
+    }
+    search_ = std::make_unique<TreeSearch<G>>(for_tree, uses_network());
     hire();
+}
+
+template <engine::Game G>
+void Searcher<G>::set_network(std::shared_ptr<const EvaluatorSource<G>> network) {
+    crew_->wait();
+    const G root = position();
+    if (network) network->check(root);
+    network_ = std::move(network);
+    rebuild(params_);
+    set_position(root);
+}
+
+template <engine::Game G>
+std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t seed) const {
+    if (!uses_network()) return std::make_unique<RolloutLeaf<G>>(seed);
+    auto turned = std::make_unique<SymmetryEvaluator<G>>(network_->make_evaluator(), seed);
+    auto cached = std::make_unique<CachedEvaluator<G>>(std::move(turned), cache_);
+    return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries);
 }
 
 template <engine::Game G>
@@ -133,7 +177,8 @@ void Searcher<G>::hire() {
     workers_.clear();
     for (int i = 0; i < params_.threads; ++i) {
         const auto seed = static_cast<std::uint64_t>(params_.seed) << 32 | static_cast<unsigned>(i);
-        workers_.push_back(std::make_unique<Worker<G>>(std::make_unique<RolloutLeaf<G>>(seed)));
+        const int batch = uses_network() ? params_.batch : 1;
+        workers_.push_back(std::make_unique<Worker<G>>(make_leaf_evaluator(seed), batch));
     }
     crew_ = std::make_unique<Crew>(params_.threads + 1);
 }
@@ -142,19 +187,23 @@ template <engine::Game G>
 void Searcher<G>::set_params(const SearchParams& params) {
     crew_->wait();
     const auto old = std::exchange(params_, params);
-    if (old.memory_mib != params.memory_mib) {
+    if (old.memory_mib != params.memory_mib || old.method != params.method) {
         const G root = position();
         rebuild(params);
         return set_position(root);
     }
     const std::lock_guard lock(picture_mutex_);
     search_->set_params(params);
-    if (old.threads != params.threads || old.seed != params.seed) hire();
+    const auto workers = [](const SearchParams& of) {
+        return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries);
+    };
+    if (workers(old) != workers(params)) hire();
 }
 
 template <engine::Game G>
 void Searcher<G>::set_position(const G& root) {
     crew_->wait();
+    check(root);
     const std::lock_guard lock(picture_mutex_);
     if (root == position()) return;
     reset_tallies();
@@ -183,170 +232,6 @@ template <engine::Game G>
 void Searcher<G>::reset_tallies() {
     for (const auto& worker : workers_)
         if (auto* tally = worker->tally()) tally->reset();
-}
-
-template <engine::Game G>
-void Searcher<G>::start(const Limits& limits, Report report, Report done) {
-    crew_->wait();
-    begin(limits);
-    crew_->start([this, report = std::move(report), done = std::move(done)](int index) {
-        run(index, report, done);
-    });
-}
-
-template <engine::Game G>
-void Searcher<G>::begin(const Limits& limits) {
-    {
-        const std::lock_guard lock(picture_mutex_);
-        MoveFilter filter;
-        filter.restrict(limits.only, limits.avoid);
-        search_->restrict_root(filter, limits.only);
-        for (const auto& worker : workers_) worker->reset_counts();
-        started_ = Clock::now();
-        fault_.clear();
-        elapsed_.reset();
-    }
-    const std::lock_guard lock(mutex_);
-    limits_ = limits;
-    team_ = std::make_unique<Team>();
-    team_->early_end = params_.early_end;
-    schedule_.reset();
-    const auto now = standing(search_->tree(), search_->filter());
-    previous_value_.reset();
-    if (now.first_visits > 0) previous_value_ = now.value;
-    working_ = workers_.size();
-    interrupted_ = ended_ = false;
-    if (!limits.ponder) take_effect(limits);
-}
-
-// With mutex_ held.
-template <engine::Game G>
-void Searcher<G>::take_effect(const Limits& limits) {
-    effective_ = Clock::now();
-    schedule_.emplace(limits, params_, moves_to_come(position()), lag());
-    if (limits.simulations) team_->limit = std::max<std::uint64_t>(*limits.simulations, 1);
-}
-
-template <engine::Game G>
-void Searcher<G>::stop() {
-    interrupt();
-    wait();
-}
-
-template <engine::Game G>
-void Searcher<G>::wait() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return ended_; });
-}
-
-template <engine::Game G>
-bool Searcher<G>::thinking() const {
-    const std::lock_guard lock(mutex_);
-    return !ended_;
-}
-
-template <engine::Game G>
-void Searcher<G>::interrupt() {
-    const std::lock_guard lock(mutex_);
-    interrupted_ = true;
-    team_->stop = true;
-    changed_.notify_all();
-}
-
-template <engine::Game G>
-void Searcher<G>::ponder_hit() {
-    const std::lock_guard lock(mutex_);
-    if (!schedule_) take_effect(limits_);
-    changed_.notify_all();
-}
-
-template <engine::Game G>
-void Searcher<G>::run(int index, const Report& report, const Report& done) {
-    const auto worker = static_cast<std::size_t>(index);
-    if (worker == workers_.size()) return conduct(report, done);
-    work(*workers_[worker]);
-    const std::lock_guard lock(mutex_);
-    --working_;
-    changed_.notify_all();
-}
-
-template <engine::Game G>
-void Searcher<G>::work(Worker<G>& worker) {
-    const auto flip = [this] {
-        const std::lock_guard lock(picture_mutex_);
-        search_->flip();
-    };
-    try {
-        worker.work(*search_, *team_, flip);
-    } catch (const std::exception& error) {
-        {
-            const std::lock_guard lock(picture_mutex_);
-            if (fault_.empty()) fault_ = error.what();
-        }
-        interrupt();
-    }
-}
-
-// Watches over the think on a thread of its own, so that no rollout, however long, delays the
-// clock.
-template <engine::Game G>
-void Searcher<G>::conduct(const Report& report, const Report& done) {
-    std::unique_lock lock(mutex_);
-    const auto every = limits_.report_every;
-    TimePoint next_report = every ? Clock::now() + *every : TimePoint::max();
-    while (!over()) {
-        changed_.wait_until(lock, next_event(next_report));
-        if (Clock::now() < next_report || over()) continue;
-        next_report = Clock::now() + *every;
-        lock.unlock();
-        if (report) report(analysis());
-        lock.lock();
-    }
-    const auto asked = Clock::now();
-    const auto hard = schedule_ ? schedule_->hard() : std::nullopt;
-    team_->stop = true;
-    // A worker that a busy machine does not let run must not hold up the answer.
-    constexpr Milliseconds patience{2};
-    const auto all_left = [&] { return working_ == 0; };
-    changed_.wait_for(lock, patience, all_left);
-    if (!search_->tree()[search_->tree().root()].expanded()) changed_.wait(lock, all_left);
-    lock.unlock();
-    {
-        const std::lock_guard picture(picture_mutex_);
-        elapsed_ = since(started_);
-    }
-    if (done) done(analysis());
-    lock.lock();
-    // Against the deadline where one was missed, else against the decision to end.
-    const auto due = hard ? std::min(asked, effective_ + *hard) : asked;
-    late_.record(since(due));
-    ended_ = true;
-    changed_.notify_all();
-}
-
-// With mutex_ held: when to look again at the latest.
-template <engine::Game G>
-TimePoint Searcher<G>::next_event(TimePoint next_report) const {
-    constexpr Milliseconds step{10}, long_time{1000000};
-    const auto now = Clock::now();
-    const bool timed = schedule_ && schedule_->hard();
-    const auto check =
-        timed ? std::min(effective_ + *schedule_->hard(), now + step) : now + long_time;
-    return std::min(next_report, check);
-}
-
-// With mutex_ held.
-template <engine::Game G>
-bool Searcher<G>::over() const {
-    if (interrupted_) return true;
-    // All may have left because the root has nothing to search; an endless think goes on waiting.
-    if (!schedule_) return false;
-    if (working_ == 0 && !limits_.endless()) return true;
-    std::uint64_t simulations = 0;
-    for (const auto& worker : workers_) simulations += worker->simulations();
-    const std::lock_guard picture(picture_mutex_);
-    return schedule_->over(since(effective_), simulations,
-                           standing(search_->tree(), search_->filter()), previous_value_);
 }
 
 template <engine::Game G>
@@ -387,12 +272,6 @@ void Searcher<G>::add_owners(Analysis& picture) const {
         picture.owners.push_back(static_cast<float>(scale * owner));
 }
 
-template <engine::Game G>
-Analysis Searcher<G>::think(const Limits& limits) {
-    Analysis last;
-    start(limits, {}, [&](const Analysis& picture) { last = picture; });
-    crew_->wait();
-    return last;
-}
-
 }  // namespace search
+
+#include "search/searcher_think.h"

@@ -95,6 +95,48 @@ struct Rave {
     };
 };
 
+// PUCT (Rosin 2011) as AlphaGo Zero and AlphaZero use it (Silver et al. 2017, 2018): mean value as
+// the mover sees it plus c P sqrt(N) / (1 + n), where c = exploration + growth ln((1 + N + base) /
+// base). An unvisited move is taken to be worth the node less `reduction` times the root of the
+// priors that have been visited (first-play urgency).
+struct Puct {
+    float exploration = 1.25f, growth = 1, base = 19652;
+    float reduction = 0.25f, root_reduction = 0.25f;
+    float virtual_loss = 1;
+};
+
+template <class Allowed>
+Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    const Node& parent = tree[id];
+    const auto n = static_cast<float>(parent.visits.load(relaxed) + parent.in_flight.load(relaxed));
+    const float c = rule.exploration + rule.growth * portable_log((1 + n + rule.base) / rule.base);
+    const float scale = c * std::sqrt(std::max(n, 1.0f));
+    Edge *best = nullptr, *unvisited = nullptr;
+    float best_score = 0, visited_priors = 0;
+    for (Edge& edge : tree.edges_to_enter(id)) {
+        if (!allowed(edge.move)) continue;
+        const NodeId child = edge.child.load(std::memory_order_acquire);
+        const float prior = edge.prior();
+        const auto losses =
+            child == no_node ? 0u : std::uint32_t{tree[child].in_flight.load(relaxed)};
+        const auto visits = child == no_node ? 0u : tree[child].visits.load(relaxed);
+        if (visits + losses == 0) {
+            if (!unvisited || edge.packed_prior > unvisited->packed_prior) unvisited = &edge;
+            continue;
+        }
+        visited_priors += prior;
+        const float score = tree[child].mean(static_cast<float>(losses) * rule.virtual_loss) +
+                            scale * prior / static_cast<float>(1 + visits + losses);
+        if (!best || score > best_score) best = &edge, best_score = score;
+    }
+    if (!unvisited) return best;
+    const float reduction = id == tree.root() ? rule.root_reduction : rule.reduction;
+    const float urgency =
+        -parent.mean() - reduction * std::sqrt(visited_priors) + scale * unvisited->prior();
+    return best && best_score >= urgency ? best : unvisited;
+}
+
 // The best-scored edge of an expanded node among those that `allowed` is true of, the first of
 // equals; nullptr when there is none.
 template <class Rule, class Allowed>

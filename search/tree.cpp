@@ -50,8 +50,8 @@ float unpack_prior(std::uint16_t packed) {
     return std::bit_cast<float>((std::uint32_t{packed} << 12) + (least_exponent << 23));
 }
 
-float Node::mean(std::uint32_t losses) const {
-    const double n = visits.load(std::memory_order_relaxed) + double{1} * losses;
+float Node::mean(double losses) const {
+    const double n = visits.load(std::memory_order_relaxed) + losses;
     if (n == 0) return 0;
     const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed)) / value_unit;
     return static_cast<float>((sum - losses) / n);

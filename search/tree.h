@@ -78,7 +78,7 @@ struct Node {
 
     bool expanded() const { return stage.load(std::memory_order_acquire) == Stage::expanded; }
     // Mean value over the finished visits and `losses` more, each counted as lost; 0 without any.
-    float mean(std::uint32_t losses = 0) const;
+    float mean(double losses = 0) const;
 };
 static_assert(sizeof(Node) <= 40);
 

@@ -54,11 +54,13 @@ int moves_to_come(const G& game) {
 template <engine::Game G>
 class TreeSearch {
    public:
-    using Rule = std::variant<Ucb1, Rave>;
+    using Rule = std::variant<Ucb1, Rave, Puct>;
 
-    explicit TreeSearch(const SearchParams& params)
+    // `network`: whether leaves are judged by one.
+    explicit TreeSearch(const SearchParams& params, bool network = false)
         : params_(params),
-          rule_(rule_of(params)),
+          network_(network),
+          rule_(rule_of(params, network)),
           tree_(static_cast<std::size_t>(params.memory_mib) << 20) {}
 
     const Tree& tree() const { return tree_; }
@@ -79,7 +81,7 @@ class TreeSearch {
     // Keeps the tree where the memory budget stays what it was.
     void set_params(const SearchParams& params) {
         params_ = params;
-        rule_ = rule_of(params);
+        rule_ = rule_of(params, network_);
     }
 
     // The moves of the tree, two at most, from the root to `game`; empty when there is no such
@@ -148,8 +150,11 @@ class TreeSearch {
     }
 
    private:
-    static Rule rule_of(const SearchParams& params) {
+    static Rule rule_of(const SearchParams& params, bool network) {
         constexpr bool weighs = engine::WeighsMoves<typename engine::RolloutsOf<G>::type, G>;
+        if (network)
+            return Puct{params.cpuct,         params.cpuct_factor,       params.cpuct_base,
+                        params.fpu_reduction, params.root_fpu_reduction, params.virtual_loss};
         if (params.rave > 0)
             return Rave{{params.rave_exploration, params.unvisited},
                         params.rave,
@@ -197,12 +202,12 @@ class TreeSearch {
             node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(params_.expand_after);
         leaf.expands = due && tree_.claim(node);
         if (due && !leaf.expands && !share) return tree_.withdraw(leaf.path), Gathered::taken;
-        if (leaf.expands) leaf.moves = sensible_moves(leaf.game, node == tree_.root());
+        if (leaf.expands) leaf.moves = sensible_moves(leaf.game, network_ || node == tree_.root());
         return Gathered::leaf;
     }
 
     // Legal moves without those that fill an own eye, which no rollout would play either. At the
-    // root they stay: someone may ask for them.
+    // root they stay: someone may ask for them. A network has a word on each.
     static engine::MoveList sensible_moves(const G& game, bool all) {
         auto moves = game.legal_moves();
         if constexpr (requires(engine::Move move) { game.fills_own_eye(move); })
@@ -227,6 +232,7 @@ class TreeSearch {
     }
 
     SearchParams params_;
+    bool network_;
     Rule rule_;
     G root_;
     Tree tree_;

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "search/analysis.h"
 #include "search/limits.h"
@@ -28,8 +30,9 @@ struct Team {
 template <engine::Game G>
 class Worker {
    public:
-    explicit Worker(std::unique_ptr<LeafEvaluator<G>> evaluator)
-        : evaluator_(std::move(evaluator)) {}
+    // Asks the evaluator about `batch` leaves at once.
+    explicit Worker(std::unique_ptr<LeafEvaluator<G>> evaluator, int batch = 1)
+        : evaluator_(std::move(evaluator)), leaves_(static_cast<std::size_t>(batch)) {}
 
     std::uint64_t simulations() const { return simulations_.load(std::memory_order_relaxed); }
     std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
@@ -44,13 +47,12 @@ class Worker {
     template <class Flip>
     void work(TreeSearch<G>& search, Team& team, Flip flip) {
         const Membership membership(team.meeting);
+        bool turn = false;  // taken and not used yet
         while (!told_to_stop(search, team)) {
             if (team.meeting.called()) team.meeting.attend(flip);
-            if (exhausted(search) || !take_turn(search, team)) return;
-            while (!simulate(search, team)) {
-                if (told_to_stop(search, team)) return;
-                if (team.meeting.called()) team.meeting.attend(flip);
-            }
+            const bool over = exhausted(search) || !(turn = turn || take_turn(search, team));
+            if (over) return;
+            turn = !simulate(search, team);
         }
     }
 
@@ -88,11 +90,27 @@ class Worker {
                !settled(standing(search.tree(), search.filter()), limit - turn);
     }
 
-    // False when nothing came of it.
+    // With a turn for the first; false when it was not used.
     bool simulate(TreeSearch<G>& search, Team& team) {
-        switch (search.gather(leaf_, evaluator_->shares_leaves())) {
+        std::size_t gathered = 0;
+        bool used = gather(search, team, gathered);
+        while (used && gathered > 0 && gathered < leaves_.size() && take_turn(search, team))
+            if (!(used = gather(search, team, gathered))) team.started.fetch_sub(1);
+        if (gathered == 0) return used;
+        evaluate(search, std::span(leaves_).first(gathered));
+        for (std::size_t i = 0; i < gathered; ++i) {
+            if (!search.absorb(leaves_[i])) team.meeting.call();
+            count(leaves_[i]);
+        }
+        return true;
+    }
+
+    // One descent; false when nothing came of it.
+    bool gather(TreeSearch<G>& search, Team& team, std::size_t& gathered) {
+        Leaf<G>& leaf = leaves_[gathered];
+        switch (search.gather(leaf, evaluator_->shares_leaves())) {
             case Gathered::absorbed:
-                return count();
+                return count(leaf);
             case Gathered::taken:
                 return false;
             case Gathered::full:
@@ -100,19 +118,21 @@ class Worker {
             case Gathered::leaf:
                 break;
         }
-        try {
-            evaluator_->evaluate({&leaf_, 1});
-        } catch (...) {
-            search.abandon(leaf_);
-            throw;
-        }
-        if (!search.absorb(leaf_)) team.meeting.call();
-        return count();
+        return ++gathered, true;
     }
 
-    bool count() {
+    void evaluate(TreeSearch<G>& search, std::span<Leaf<G>> leaves) {
+        try {
+            evaluator_->evaluate(leaves);
+        } catch (...) {
+            for (const auto& leaf : leaves) search.abandon(leaf);
+            throw;
+        }
+    }
+
+    bool count(const Leaf<G>& leaf) {
         constexpr auto relaxed = std::memory_order_relaxed;
-        const auto length = leaf_.path.size() - 1;
+        const auto length = leaf.path.size() - 1;
         simulations_.store(simulations() + 1, relaxed);
         steps_.store(steps() + length, relaxed);
         deepest_.store(std::max<std::uint64_t>(deepest(), length), relaxed);
@@ -120,7 +140,7 @@ class Worker {
     }
 
     std::unique_ptr<LeafEvaluator<G>> evaluator_;
-    Leaf<G> leaf_;
+    std::vector<Leaf<G>> leaves_;
     std::atomic<std::uint64_t> simulations_ = 0, steps_ = 0, deepest_ = 0;
 };
 

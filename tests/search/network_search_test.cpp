@@ -1,0 +1,165 @@
+// Search with networks, on a toy game whose network the test writes itself.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "search/searcher.h"
+#include "tests/search/fake_network.h"
+#include "tests/search/tictactoe.h"
+
+namespace search {
+namespace {
+
+using tictactoe::TicTacToe;
+using Answer = std::function<void(const Query<TicTacToe>&)>;
+
+class Source final : public EvaluatorSource<TicTacToe> {
+   public:
+    explicit Source(Answer answer) : answer_(std::move(answer)) {}
+    std::unique_ptr<Evaluator<TicTacToe>> make_evaluator() const override {
+        auto made = std::make_unique<fake::Network>();
+        made->answer = answer_;
+        return made;
+    }
+    std::string_view name() const override { return "fake"; }
+    void check(const TicTacToe&) const override {}
+    int policy_index(const TicTacToe&, engine::Move move) const override { return move.code; }
+
+   private:
+    Answer answer_;
+};
+
+// Knows nothing: even priors, even value.
+void even(const Query<TicTacToe>& query) { query.answer->win = query.answer->loss = 0.5f; }
+
+SearchParams small() {
+    SearchParams params;
+    params.memory_mib = 16;
+    params.early_end = false;
+    return params;
+}
+
+Analysis searched(const SearchParams& params, std::string_view moves, std::uint64_t count,
+                  const Answer& answer = even) {
+    Searcher<TicTacToe> searcher(params);
+    searcher.set_network(std::make_shared<Source>(answer));
+    searcher.set_position(TicTacToe::from_text(moves));
+    Limits limits;
+    limits.simulations = count;
+    return searcher.think(limits);
+}
+
+Move cell(int number) { return {static_cast<std::uint16_t>(number - 1)}; }
+
+TEST(Puct, TakesAWinInOneAndBlocksALoss) {
+    EXPECT_EQ(searched(small(), "1425", 300).moves.at(0).move, cell(3));
+    EXPECT_EQ(searched(small(), "152", 300).moves.at(0).move, cell(3));
+}
+
+TEST(Puct, OneVisitShowsThePriors) {
+    const auto picture = searched(small(), "", 1, [](const auto& query) {
+        even(query);
+        query.answer->priors.assign(9, 0.05f);
+        query.answer->priors[6] = 0.6f;
+        query.answer->win = 0.7f;
+        query.answer->loss = 0.3f;
+    });
+    EXPECT_EQ(picture.visits, 1u);
+    EXPECT_NEAR(picture.value, 0.4, 1e-6);
+    EXPECT_EQ(picture.moves.at(0).move, cell(7));
+    EXPECT_NEAR(picture.moves.at(0).prior, 0.6, 1e-3);
+}
+
+// With equal values, visits follow the priors.
+TEST(Puct, VisitsFollowThePriors) {
+    const auto lean = [](const Query<TicTacToe>& query) {
+        even(query);
+        const auto count = query.answer->priors.size();
+        query.answer->priors.assign(count, 0.5f / static_cast<float>(count - 1));
+        query.answer->priors[0] = 0.5f;
+    };
+    const auto picture = searched(small(), "", 100, lean);
+    EXPECT_EQ(picture.moves.at(0).move, cell(1));
+    EXPECT_NEAR(static_cast<double>(picture.moves.at(0).visits), 50, 12);
+}
+
+TEST(Puct, AnUnvisitedMoveIsWorthItsParentLessTheReduction) {
+    auto params = small();
+    params.fpu_reduction = params.root_fpu_reduction = 10;
+    // So bad is what is unvisited that the first move is searched alone.
+    EXPECT_EQ(searched(params, "", 20).moves.at(1).visits, 0u);
+    params.fpu_reduction = params.root_fpu_reduction = -10;
+    EXPECT_GT(searched(params, "", 20).moves.at(8).visits, 0u);
+}
+
+TEST(Puct, BatchesCountEverySimulation) {
+    for (const int batch : {1, 3, 8}) {
+        auto params = small();
+        params.batch = batch;
+        const auto picture = searched(params, "152", 400);
+        EXPECT_EQ(picture.simulations, 400u) << batch;
+        EXPECT_EQ(picture.visits, 400u) << batch;
+        EXPECT_EQ(picture.moves.at(0).move, cell(3)) << batch;
+    }
+}
+
+TEST(Puct, ThreadsCountEverySimulation) {
+    auto params = small();
+    params.threads = 4;
+    params.batch = 4;
+    const auto picture = searched(params, "152", 2000);
+    EXPECT_EQ(picture.simulations, 2000u);
+    EXPECT_EQ(picture.visits, 2000u);
+}
+
+TEST(Puct, OneSeedGivesOneTree) {
+    const auto one = searched(small(), "5", 500), other = searched(small(), "5", 500);
+    ASSERT_EQ(one.moves.size(), other.moves.size());
+    for (std::size_t i = 0; i < one.moves.size(); ++i) {
+        EXPECT_EQ(one.moves[i].move, other.moves[i].move);
+        EXPECT_EQ(one.moves[i].visits, other.moves[i].visits);
+    }
+}
+
+TEST(Network, UctPlaysOutEvenWhereThereIsANetwork) {
+    auto params = small();
+    params.method = Method::uct;
+    int asked = 0;
+    const auto picture = searched(params, "152", 500, [&](const auto& query) {
+        ++asked;
+        even(query);
+    });
+    EXPECT_EQ(asked, 0);
+    EXPECT_EQ(picture.moves.at(0).move, cell(3));
+}
+
+TEST(Network, WhatItThrowsEndsTheThinkWithTheMessageAndTheMovesKnown) {
+    int asked = 0;
+    const auto picture = searched(small(), "5", 1000, [&](const auto& query) {
+        even(query);
+        if (++asked == 20) engine::fail("the network yields what is no number");
+    });
+    EXPECT_EQ(picture.fault, "the network yields what is no number");
+    EXPECT_EQ(picture.moves.size(), 8u);
+    EXPECT_LT(picture.simulations, 1000u);
+}
+
+TEST(Network, ThinksAgainAfterAFault) {
+    Searcher<TicTacToe> searcher(small());
+    bool broken = true;
+    searcher.set_network(std::make_shared<Source>([&](const auto& query) {
+        even(query);
+        if (broken) engine::fail("broken");
+    }));
+    Limits limits;
+    limits.simulations = 100;
+    EXPECT_EQ(searcher.think(limits).fault, "broken");
+    broken = false;
+    const auto picture = searcher.think(limits);
+    EXPECT_EQ(picture.fault, "");
+    EXPECT_EQ(picture.visits, 100u);
+}
+
+}  // namespace
+}  // namespace search
