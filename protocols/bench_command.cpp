@@ -9,6 +9,8 @@
 #include "engine/chess/bench.h"
 #include "engine/go/bench.h"
 #include "engine/shogi/bench.h"
+#include "nn/bench.h"
+#include "nn/load.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "search/bench.h"
@@ -41,20 +43,54 @@ void print(const Figures& figures) {
     }
 }
 
+struct NetworkFlags {
+    std::string weights, precision = "int16";
+    nn::BenchSettings settings{.board = 0};
+};
+
+void add_network_flags(CLI::App& app, NetworkFlags& flags) {
+    app.add_option("--weights", flags.weights, "nn: a network; several standard ones unless given");
+    app.add_option("--board", flags.settings.board, "nn: its board; the network's own, or 19")
+        ->check(CLI::Range(1, 25));
+    app.add_option("--precision", flags.precision,
+                   "nn: the next more exact one where it is lacking")
+        ->check(CLI::IsMember({"fp32", "bf16", "int8", "int16"}))
+        ->capture_default_str();
+    app.add_option("--threads", flags.settings.threads, "nn: each with an executor of its own")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    app.add_option("--batch", flags.settings.batch, "nn: positions at once")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+}
+
+void bench_networks(const NetworkFlags& flags, double seconds) {
+    auto settings = flags.settings;
+    settings.seconds = seconds;
+    if (flags.weights.empty()) return print(nn::bench_standard_networks(settings));
+    const auto graph = nn::load(flags.weights);
+    settings.precision = *nn::precision_from(flags.precision);
+    if (settings.board == 0) settings.board = graph.facts.board == 0 ? 19 : graph.facts.board;
+    print(nn::bench_network(graph, settings));
+}
+
 }  // namespace
 
 int run_bench(Arguments arguments) {
-    CLI::App app("Speed of the rules and the search, a figure a line", "sanban bench");
+    CLI::App app("Speed of rules, search and networks, a figure a line", "sanban bench");
     std::string wanted;
     double seconds = 1;
-    app.add_option("group", wanted, "rules or search; both unless given")
-        ->check(CLI::IsMember({"rules", "search"}));
+    app.add_option("group", wanted, "rules, search or nn; rules and search unless given")
+        ->check(CLI::IsMember({"rules", "search", "nn"}));
     app.add_option("--seconds", seconds, "for each figure")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
+    NetworkFlags network;
+    add_network_flags(app, network);
     if (const auto status = parse_flags(app, arguments)) return *status;
     for (const auto& [name, measure] : groups)
         if (wanted.empty() || wanted == name) print(measure(seconds));
+    if (wanted == "nn") bench_networks(network, seconds);
     return 0;
 }
 

@@ -1,0 +1,32 @@
+// How fast networks run here: what `sanban bench nn` prints. Speeds are by the processor time of
+// each thread, medians of several repeats, so that a shared machine gives figures that can be
+// compared; the processor's peak is measured between the repeats.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/figure.h"
+#include "nn/executor.h"
+
+namespace nn {
+
+struct BenchSettings {
+    int board = 9;
+    Precision precision = Precision::int16;
+    int threads = 1;
+    int batch = 1;
+    double seconds = 1;  // for each network
+};
+
+// evals (of all threads), gflops, peak_share and, where oneDNN computes, ceiling_share (of bare
+// convolutions of the same shapes). Names begin with `prefix`. The numbers that go in are random,
+// mostly zeros as encoded positions are. A precision that is lacking here gives way as compile
+// says.
+std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSettings& settings,
+                                          const std::string& prefix = "");
+
+// The same for networks that builders make, in every precision that this machine has.
+std::vector<engine::Figure> bench_standard_networks(const BenchSettings& settings);
+
+}  // namespace nn
