@@ -11,6 +11,7 @@
 #include "engine/shogi/bench.h"
 #include "nn/bench.h"
 #include "nn/load.h"
+#include "nn/training/bench.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "search/bench.h"
@@ -77,11 +78,11 @@ void bench_networks(const NetworkFlags& flags, double seconds) {
 }  // namespace
 
 int run_bench(Arguments arguments) {
-    CLI::App app("Speed of rules, search and networks, a figure a line", "sanban bench");
+    CLI::App app("Speed of rules, search, networks and learning, a figure a line", "sanban bench");
     std::string wanted;
     double seconds = 1;
-    app.add_option("group", wanted, "rules, search or nn; rules and search unless given")
-        ->check(CLI::IsMember({"rules", "search", "nn"}));
+    app.add_option("group", wanted, "rules, search, nn or learn; rules and search unless given")
+        ->check(CLI::IsMember({"rules", "search", "nn", "learn"}));
     app.add_option("--seconds", seconds, "for each figure")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
@@ -91,6 +92,7 @@ int run_bench(Arguments arguments) {
     for (const auto& [name, measure] : groups)
         if (wanted.empty() || wanted == name) print(measure(seconds));
     if (wanted == "nn") bench_networks(network, seconds);
+    if (wanted == "learn") print(nn::training::bench_learner(seconds));
     return 0;
 }
 

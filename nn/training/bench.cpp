@@ -1,0 +1,94 @@
+#include "nn/training/bench.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "engine/base/measure.h"
+#include "nn/builders.h"
+#include "nn/training/learner.h"
+
+namespace nn::training {
+
+namespace {
+
+constexpr int batch = 256, legal_moves = 40;
+
+TowerDescription tower(int board, int planes) {
+    TowerDescription about;
+    about.facts.board = board;
+    about.facts.blocks = 5;
+    about.facts.channels = 64;
+    about.planes = planes;
+    about.value_width = 64;
+    return about;
+}
+
+TowerDescription go_tower() {
+    auto about = tower(9, 17);
+    about.policy_size = 82;
+    return about;
+}
+
+TowerDescription chess_tower() {
+    auto about = tower(8, 119);
+    about.policy = PolicyHead::planes;
+    about.move_planes = 73;
+    about.policy_size = 73 * 64;
+    return about;
+}
+
+// Random planes; of a few dozen legal moves one is played.
+struct Positions {
+    std::vector<float> planes, played, values;
+    std::vector<int> starts, moves;
+
+    explicit Positions(const TowerDescription& about) {
+        engine::Random random(1);
+        const int points = about.facts.board * about.facts.board;
+        planes.resize(static_cast<std::size_t>(batch * about.planes * points));
+        for (auto& x : planes) x = static_cast<float>(random.below(2));
+        for (int i = 0; i <= batch; ++i) starts.push_back(i * legal_moves);
+        for (int i = 0; i < batch; ++i) {
+            const int first = random.below(about.policy_size - legal_moves);
+            for (int move = 0; move < legal_moves; ++move) moves.push_back(first + move);
+            values.push_back(static_cast<float>(random.below(3) - 1));
+            played.resize(moves.size());
+            played.back() = 1;
+        }
+    }
+    Samples samples(int board) const {
+        return {batch,
+                board,
+                {planes},
+                {{played, starts, moves, true, {}}, {values, {}, {}, true, {}}}};
+    }
+};
+
+double samples_per_second(const TowerDescription& about, Precision precision, double seconds) {
+    engine::Random random(1);
+    const Positions positions(about);
+    const auto samples = positions.samples(about.facts.board);
+    LearnerSettings settings;
+    settings.precision = precision;
+    settings.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    Learner learner(build_tower(about, random), settings);
+    learner.step(samples);  // makes what the batch size needs
+    return batch * engine::calls_per_second(
+                       seconds, [&] { learner.step(samples); }, 1);
+}
+
+}  // namespace
+
+std::vector<engine::Figure> bench_learner(double seconds) {
+    std::vector<engine::Figure> figures;
+    const auto measure = [&](const char* name, const TowerDescription& about, Precision precision) {
+        figures.push_back({name, samples_per_second(about, precision, seconds), "samples/s"});
+    };
+    measure("learner_samples", go_tower(), Precision::bf16);
+    measure("learner_samples_fp32", go_tower(), Precision::fp32);
+    measure("learner_samples_chess", chess_tower(), Precision::bf16);
+    measure("learner_samples_chess_fp32", chess_tower(), Precision::fp32);
+    return figures;
+}
+
+}  // namespace nn::training
