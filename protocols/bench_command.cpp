@@ -44,12 +44,12 @@ void print(const Figures& figures) {
     }
 }
 
-struct NetworkFlags {
+struct MeasuredNetwork {
     std::string weights, precision = "int16";
     nn::BenchSettings settings{.board = 0};
 };
 
-void add_network_flags(CLI::App& app, NetworkFlags& flags) {
+void add_measured_network(CLI::App& app, MeasuredNetwork& flags) {
     app.add_option("--weights", flags.weights, "nn: a network; several standard ones unless given");
     app.add_option("--board", flags.settings.board, "nn: its board; the network's own, or 19")
         ->check(CLI::Range(1, 25));
@@ -65,7 +65,7 @@ void add_network_flags(CLI::App& app, NetworkFlags& flags) {
         ->capture_default_str();
 }
 
-void bench_networks(const NetworkFlags& flags, double seconds) {
+void bench_networks(const MeasuredNetwork& flags, double seconds) {
     auto settings = flags.settings;
     settings.seconds = seconds;
     if (flags.weights.empty()) return print(nn::bench_standard_networks(settings));
@@ -86,8 +86,8 @@ int run_bench(Arguments arguments) {
     app.add_option("--seconds", seconds, "for each figure")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    NetworkFlags network;
-    add_network_flags(app, network);
+    MeasuredNetwork network;
+    add_measured_network(app, network);
     if (const auto status = parse_flags(app, arguments)) return *status;
     for (const auto& [name, measure] : groups)
         if (wanted.empty() || wanted == name) print(measure(seconds));
