@@ -44,8 +44,8 @@ struct Positions {
 
     explicit Positions(const TowerDescription& about) {
         engine::Random random(1);
-        const int points = about.facts.board * about.facts.board;
-        planes.resize(static_cast<std::size_t>(batch * about.planes * points));
+        const auto board = static_cast<std::size_t>(about.facts.board);
+        planes.resize(batch * static_cast<std::size_t>(about.planes) * board * board);
         for (auto& x : planes) x = static_cast<float>(random.below(2));
         for (int i = 0; i <= batch; ++i) starts.push_back(i * legal_moves);
         for (int i = 0; i < batch; ++i) {

@@ -124,8 +124,8 @@ void Learner::run_part(Replica& replica, const Samples& samples, int first, int 
     for (std::size_t t = 0; t < settings_.terms.size(); ++t) {
         const auto o = at(term_outputs_[t]);
         const float factor = settings_.terms[t].weight / static_cast<float>(samples.size);
-        replica.costs[t] += measure(settings_.terms[t].loss, replica.outputs[o], count,
-                                    samples.targets[t], first, factor, replica.output_gradients[o]);
+        replica.costs[t] += measure(settings_.terms[t].loss, replica.outputs[o], samples.targets[t],
+                                    {count, first, factor}, replica.output_gradients[o]);
         output_gradients[o] = replica.output_gradients[o];
     }
     if (learn) replica.trainer->backward(output_gradients);

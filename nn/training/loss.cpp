@@ -181,20 +181,20 @@ std::vector<Term> usual_terms(const Graph& graph) {
     return terms;
 }
 
-Cost measure(Loss loss, std::span<const float> answers, int samples, const Target& target,
-             int first, float factor, std::span<float> gradients) {
-    assert(samples > 0 && gradients.size() == answers.size());
-    const auto width = answers.size() / at(samples);
+Cost measure(Loss loss, std::span<const float> answers, const Target& target, Share share,
+             std::span<float> gradients) {
+    assert(share.samples > 0 && gradients.size() == answers.size());
+    const auto width = answers.size() / at(share.samples);
     Cost sum;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < share.samples; ++i) {
         const auto sample =
-            sample_of(loss, target, first + i, answers.subspan(at(i) * width, width),
+            sample_of(loss, target, share.first + i, answers.subspan(at(i) * width, width),
                       gradients.subspan(at(i) * width, width));
-        const float weight = target.weights.empty() ? 1 : target.weights[at(first + i)];
+        const float weight = target.weights.empty() ? 1 : target.weights[at(share.first + i)];
         auto cost = weight == 0 ? Cost{} : cost_of(loss, sample);
         scale(cost, weight);
         sum += cost;
-        for (auto& x : sample.gradient) x = weight == 0 ? 0 : x * weight * factor;
+        for (auto& x : sample.gradient) x = weight == 0 ? 0 : x * weight * share.factor;
     }
     return sum;
 }

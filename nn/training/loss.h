@@ -59,9 +59,15 @@ struct Cost {
     double mean(double sum) const { return weight > 0 ? sum / weight : 0; }
 };
 
-// The samples first, first + 1 … of `target` against the rows of `answers`. Writes into `gradients`
-// (laid out like answers) that of `factor` times the sum of the weighted losses.
-Cost measure(Loss loss, std::span<const float> answers, int samples, const Target& target,
-             int first, float factor, std::span<float> gradients);
+// Which samples of a batch, and what their losses count in the gradient.
+struct Share {
+    int samples = 1, first = 0;
+    float factor = 1;
+};
+
+// Those samples of `target` against the rows of `answers`. Writes into `gradients` (laid out like
+// answers) that of `factor` times the sum of the weighted losses.
+Cost measure(Loss loss, std::span<const float> answers, const Target& target, Share share,
+             std::span<float> gradients);
 
 }  // namespace nn::training

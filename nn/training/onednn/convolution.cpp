@@ -28,18 +28,27 @@ template <class Number>
 Convolution<Number>::Convolution(Device& device, const Node& node, Extent input, int board)
     : device_(device) {
     const auto& shape = node.weights[0].shape;
-    const memory::dims kernel = {shape[0], shape[1], shape[2], shape[3]};
+    // Whole blocks of inputs: for fewer than 16 channels the library has but a slow loop.
+    const int inputs = input.blocks() * lanes;
+    const memory::dims kernel = {shape[0], inputs, shape[2], shape[3]};
     const auto type = type_of<Number>();
     pad_ = {shape[2] / 2, shape[2] / 2};
-    x_ = {{input.samples, shape[1], board, board}, type, Tag::nChw16c};
+    x_ = {{input.samples, inputs, board, board}, type, Tag::nChw16c};
     y_ = {{input.samples, shape[0], board, board}, type, Tag::nChw16c};
     plain_kernel_ = {kernel, Type::f32, Tag::oihw};
     any_kernel_ = {kernel, type, Tag::any};
     any_gradient_ = {kernel, Type::f32, Tag::any};
     bias_ = {{shape[0]}, Type::f32, Tag::x};
     plain_ = memory_of(plain_kernel_);
+    outputs_ = static_cast<std::size_t>(shape[0]);
+    row_ = node.weights[0].values.size() / outputs_;
+    filled_row_ = plain_kernel_.get_size() / sizeof(float) / outputs_;
     make_forward(node.weights.size() > 1);
     make_backward();
+    // Made once: making one costs more than running it on a small network.
+    to_forward_ = dnnl::reorder(plain_, forward_kernel_);
+    to_backward_ = dnnl::reorder(plain_, backward_kernel_);
+    to_plain_ = dnnl::reorder(gradient_, plain_);
 }
 
 template <class Number>
@@ -76,16 +85,13 @@ memory Convolution<Number>::memory_of(const memory::desc& description, void* pla
 }
 
 template <class Number>
-void Convolution<Number>::reorder(memory& from, memory& to) {
-    dnnl::reorder(from, to).execute(device_.stream, from, to);
-}
-
-template <class Number>
 void Convolution<Number>::load(const float* kernel, const float* bias) {
-    const auto count = plain_kernel_.get_size() / sizeof(float);
-    std::copy_n(kernel, count, static_cast<float*>(plain_.get_data_handle()));
-    reorder(plain_, forward_kernel_);
-    reorder(plain_, backward_kernel_);
+    auto* const plain = static_cast<float*>(plain_.get_data_handle());
+    std::fill_n(plain, outputs_ * filled_row_, 0.0f);
+    for (std::size_t out = 0; out < outputs_; ++out)
+        std::copy_n(kernel + out * row_, row_, plain + out * filled_row_);
+    to_forward_.execute(device_.stream, plain_, forward_kernel_);
+    to_backward_.execute(device_.stream, plain_, backward_kernel_);
     if (bias)
         std::copy_n(bias, bias_.get_size() / sizeof(float),
                     static_cast<float*>(bias_values_.get_data_handle()));
@@ -119,10 +125,11 @@ void Convolution<Number>::backward_weights(Number* x, Number* y_gradient) {
 template <class Number>
 void Convolution<Number>::collect(float* kernel) {
     std::copy(sum_.begin(), sum_.end(), static_cast<float*>(gradient_.get_data_handle()));
-    reorder(gradient_, plain_);
+    to_plain_.execute(device_.stream, gradient_, plain_);
     const auto* const plain = static_cast<const float*>(plain_.get_data_handle());
-    for (std::size_t i = 0; i < plain_kernel_.get_size() / sizeof(float); ++i)
-        kernel[i] += plain[i];
+    for (std::size_t out = 0; out < outputs_; ++out)
+        for (std::size_t i = 0; i < row_; ++i)
+            kernel[out * row_ + i] += plain[out * filled_row_ + i];
     std::fill(sum_.begin(), sum_.end(), 0.0f);
 }
 

@@ -38,15 +38,17 @@ class Convolution {
     void make_forward(bool biased);
     void make_backward();
     dnnl::memory memory_of(const dnnl::memory::desc& description, void* place = nullptr) const;
-    void reorder(dnnl::memory& from, dnnl::memory& to);
 
     Device& device_;
+    // Numbers of one output's kernel, and with its inputs filled up to whole blocks.
+    std::size_t outputs_ = 0, row_ = 0, filled_row_ = 0;
     dnnl::memory::dims pad_;
     dnnl::memory::desc x_, y_, plain_kernel_, any_kernel_, any_gradient_, bias_;
     dnnl::convolution_forward::primitive_desc hint_;
     dnnl::convolution_forward forward_;
     dnnl::convolution_backward_data backward_data_;
     dnnl::convolution_backward_weights backward_weights_;
+    dnnl::reorder to_forward_, to_backward_, to_plain_;
     dnnl::memory plain_, forward_kernel_, backward_kernel_, bias_values_, gradient_;
     std::vector<float> sum_;  // laid out like gradient_
 };

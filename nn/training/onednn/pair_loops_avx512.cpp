@@ -38,37 +38,47 @@ struct Place {
     }
 };
 
-// `rows` input channels by `vectors` blocks of output channels, their sums held in registers.
+// The sums of `rows` input channels by `vectors` blocks of output channels, held in registers.
+template <int rows, int vectors>
+struct Tile {
+    __m512 sum[rows][vectors];
+
+    void load(const float* sums, Index stride) {
+        for (Index r = 0; r < rows; ++r)
+            for (Index v = 0; v < vectors; ++v)
+                sum[r][v] = _mm512_loadu_ps(sums + r * stride + v * lanes);
+    }
+    void store(float* sums, Index stride) const {
+        for (Index r = 0; r < rows; ++r)
+            for (Index v = 0; v < vectors; ++v)
+                _mm512_storeu_ps(sums + r * stride + v * lanes, sum[r][v]);
+    }
+    void add_point(const std::uint32_t* x, const std::uint32_t* y) {
+        __m512bh gradient[vectors];
+        for (Index v = 0; v < vectors; ++v)
+            gradient[v] = reinterpret_cast<__m512bh>(_mm512_loadu_si512(y + v * lanes));
+#pragma GCC unroll 16
+        for (Index r = 0; r < rows; ++r) {
+            const auto value =
+                reinterpret_cast<__m512bh>(_mm512_set1_epi32(static_cast<int>(x[r])));
+            for (Index v = 0; v < vectors; ++v)
+                sum[r][v] = _mm512_dpbf16_ps(sum[r][v], value, gradient[v]);
+        }
+    }
+};
+
 template <int rows, int vectors>
 void add_tile(const PairShape& shape, const Place& place, Index count, const std::uint32_t* x,
               const std::uint32_t* y, float* sums) {
-    __m512 sum[rows][vectors];
-    for (int r = 0; r < rows; ++r)
-        for (int v = 0; v < vectors; ++v)
-            sum[r][v] = _mm512_loadu_ps(sums + r * shape.out + v * lanes);
+    Tile<rows, vectors> tile;
+    tile.load(sums, shape.out);
     for (Index pair = 0; pair < count; ++pair)
         for (Index row = place.top; row < place.bottom; ++row) {
-            const Index first = pair * shape.points() + row * shape.board + place.left;
-            const auto* from = x + (first + place.shift) * shape.in;
-            const auto* by = y + first * shape.out;
-            for (Index column = place.left; column < place.right; ++column) {
-                __m512bh gradient[vectors];
-                for (int v = 0; v < vectors; ++v)
-                    gradient[v] = reinterpret_cast<__m512bh>(_mm512_loadu_si512(by + v * lanes));
-#pragma GCC unroll 16
-                for (int r = 0; r < rows; ++r) {
-                    const auto value =
-                        reinterpret_cast<__m512bh>(_mm512_set1_epi32(static_cast<int>(from[r])));
-                    for (int v = 0; v < vectors; ++v)
-                        sum[r][v] = _mm512_dpbf16_ps(sum[r][v], value, gradient[v]);
-                }
-                from += shape.in;
-                by += shape.out;
-            }
+            const Index first = pair * shape.points() + row * shape.board;
+            for (Index p = first + place.left; p < first + place.right; ++p)
+                tile.add_point(x + (p + place.shift) * shape.in, y + p * shape.out);
         }
-    for (int r = 0; r < rows; ++r)
-        for (int v = 0; v < vectors; ++v)
-            _mm512_storeu_ps(sums + r * shape.out + v * lanes, sum[r][v]);
+    tile.store(sums, shape.out);
 }
 
 // All input channels by some output channels.

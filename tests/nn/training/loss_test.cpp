@@ -20,11 +20,11 @@ struct Problem {
 
     double value(const Row& at) const {
         Row gradients(at.size());
-        return measure(loss, at, samples, target, 0, 1, gradients).loss;
+        return measure(loss, at, target, {samples, 0, 1}, gradients).loss;
     }
     void expect_true_gradient(double tolerance = 2e-3) const {
         Row gradients(answers.size());
-        measure(loss, answers, samples, target, 0, 1, gradients);
+        measure(loss, answers, target, {samples, 0, 1}, gradients);
         for (std::size_t i = 0; i < answers.size(); ++i) {
             Row high = answers, low = answers;
             high[i] += 0.01f;
@@ -46,7 +46,7 @@ TEST(Losses, PolicyOverLegalMoves) {
     EXPECT_NEAR(problem.value(logits), 0.25 * (std::log(sum) - 1) + 0.75 * (std::log(sum) - 0.5),
                 1e-5);
     Row gradients(8, 9.0f);
-    const auto cost = measure(problem.loss, logits, 2, problem.target, 0, 1, gradients);
+    const auto cost = measure(problem.loss, logits, problem.target, {2, 0, 1}, gradients);
     EXPECT_EQ(gradients[1], 0) << "an illegal move";
     EXPECT_EQ(cost.hits, 1) << "the second sample's only move; the first prefers move 3";
     EXPECT_EQ(cost.accuracy(), 0.5);
@@ -65,7 +65,7 @@ TEST(Losses, Distribution) {
     const Problem problem{Loss::distribution, answers, {target, {}, {}, true, {}}, 2};
     problem.expect_true_gradient();
     Row gradients(6);
-    const auto cost = measure(problem.loss, answers, 2, problem.target, 0, 1, gradients);
+    const auto cost = measure(problem.loss, answers, problem.target, {2, 0, 1}, gradients);
     EXPECT_EQ(cost.accuracy(), 1);
     const double odds = (std::exp(2) - std::exp(-1)) / (std::exp(2) + 1 + std::exp(-1));
     const double first =
@@ -90,7 +90,7 @@ TEST(Losses, SaturatedOwnershipStaysANumber) {
     const Row answers = {1, -1}, target = {-1, 1};
     Row gradients(2);
     const auto cost =
-        measure(Loss::ownership, answers, 1, {target, {}, {}, true, {}}, 0, 1, gradients);
+        measure(Loss::ownership, answers, {target, {}, {}, true, {}}, {1, 0, 1}, gradients);
     EXPECT_TRUE(std::isfinite(cost.loss));
     for (const float x : gradients) EXPECT_TRUE(std::isfinite(x));
     EXPECT_GT(gradients[0], 0);
@@ -100,7 +100,7 @@ TEST(Losses, WeightsLeaveOutScaleAndTurn) {
     const Row answers = {0.5f, 0.5f, 0.5f}, target = {1, 1, 1}, weights = {0, 2, -1};
     Row gradients(3);
     const auto cost =
-        measure(Loss::square, answers, 3, {target, {}, {}, true, weights}, 0, 0.1f, gradients);
+        measure(Loss::square, answers, {target, {}, {}, true, weights}, {3, 0, 0.1f}, gradients);
     EXPECT_EQ(gradients[0], 0);
     EXPECT_FLOAT_EQ(gradients[1], -0.2f);
     EXPECT_FLOAT_EQ(gradients[2], 0.1f);
@@ -112,7 +112,7 @@ TEST(Losses, LaterSamplesOfABatch) {
     const Row answers = {0.5f}, target = {9, 9, 1};
     Row gradients(1);
     const auto cost =
-        measure(Loss::square, answers, 1, {target, {}, {}, true, {}}, 2, 1, gradients);
+        measure(Loss::square, answers, {target, {}, {}, true, {}}, {1, 2, 1}, gradients);
     EXPECT_FLOAT_EQ(static_cast<float>(cost.loss), 0.25f);
 }
 
