@@ -127,6 +127,7 @@ std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSetting
     const Case current{graph, settings, calibration, *program, positions, served};
     std::vector<Rates> rates(static_cast<std::size_t>(settings.threads));
     std::vector<std::thread> threads;
+    threads.reserve(rates.size());
     for (auto& own : rates) threads.emplace_back([&] { own = measure(current); });
     for (auto& thread : threads) thread.join();
 

@@ -60,8 +60,8 @@ std::string kata_text(const go::Go& game, const engine::MoveList& moves, int sym
     text += fmt::format("policyPass {}\n", prior_text(prior_of(moves, answer, go::Go::pass)));
     if (answer.owners.empty()) return text;
     return text + "whiteOwnership\n" + rows(game, [&](go::Point point) {
-               const auto at = static_cast<std::size_t>(point.y * game.size() + point.x);
-               return fmt::format("{:9.7f} ", sign * answer.owners[at]);
+               const int at = point.y * game.size() + point.x;
+               return fmt::format("{:9.7f} ", sign * answer.owners[static_cast<std::size_t>(at)]);
            });
 }
 

@@ -45,6 +45,16 @@ void set_number(GoCommand& go, std::string_view word, std::int64_t value, bool w
     if (word == "mate") go.mate = count;
 }
 
+// The word behind `keyword`, which is a number, or "infinite" behind "mate". False: there is none.
+bool read_number(std::istream& in, GoCommand& go, std::string_view keyword, bool white_first) {
+    if (keyword == "mate") go.mate = std::numeric_limits<std::uint64_t>::max();
+    std::string text;
+    if (!(in >> text)) return false;
+    if (keyword == "mate" && text == "infinite") return true;
+    if (const auto value = number(text)) set_number(go, keyword, *value, white_first);
+    return true;
+}
+
 }  // namespace
 
 GoCommand parse_go(std::string_view arguments, bool white_first) {
@@ -59,11 +69,7 @@ GoCommand parse_go(std::string_view arguments, bool white_first) {
         if (word == "infinite") go.infinite = true;
         if (word == "ponder") go.ponder = true;
         if (listing_moves || word == "infinite" || word == "ponder") continue;
-        std::string text;
-        if (word == "mate") go.mate = std::numeric_limits<std::uint64_t>::max();
-        if (!(in >> text)) break;
-        if (word == "mate" && text == "infinite") continue;
-        if (const auto value = number(text)) set_number(go, word, *value, white_first);
+        if (!read_number(in, go, word, white_first)) break;
     }
     return go;
 }

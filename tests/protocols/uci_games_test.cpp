@@ -12,7 +12,7 @@
 #include "engine/shogi/rollouts.h"
 #include "engine/shogi/shogi.h"
 #include "protocols/uci.h"
-#include "tests/selfplay/fake_engine.h"
+#include "tests/temporary_folder.h"
 
 namespace protocols {
 
@@ -156,7 +156,7 @@ TEST(UciGames, AWinIsDeclared) {
 }
 
 TEST(UciGames, SolvesProblemsOfFiles) {
-    const selfplay::testing::TemporaryFolder folder;
+    const tests::TemporaryFolder folder;
     const auto chess = (folder.path() / "mates.epd").string();
     std::ofstream(chess) << "6k1/5ppp/8/8/8/8/8/R3K3 w - - dm 1; id \"back rank\";\n"
                             "# a comment\n"
