@@ -1,0 +1,79 @@
+// How self-play games are played: every tunable of an actor, declared once. A value.
+#pragma once
+
+#include <tuple>
+
+#include "engine/base/option.h"
+
+namespace selfplay::training {
+
+struct ActorSettings {
+    int games = 32;  // that a thread advances together
+    int batch = 8;   // positions that it asks the network about at once
+    // A full search teaches the policy; the rest of the turns get a fast one that does not
+    // (playout-cap randomisation, Wu 2019).
+    int simulations = 32, fast_simulations = 8;
+    float full_share = 0.25f;  // of turns
+    float cpuct = 1.25f, fpu_reduction = 0.25f;
+    bool symmetries = true;
+    float temperature = 1, late_temperature = 0;
+    int temperature_moves = 30;
+    float opening_share = 0.75f;
+    int opening_moves = 6;
+    float resign = -0.9f;
+    int resign_turns = 3;
+    float play_on_share = 0.1f, resign_errors = 0.05f;
+    int move_limit = 0;
+    int size = 9, least_size = 0;
+    float small_share = 0.25f;
+    float komi = 7.5f, komi_deviation = 0;
+
+    static constexpr auto options() {
+        using engine::Flag;
+        using engine::Option;
+        using S = ActorSettings;
+        return std::tuple{
+            Option<S, int>{"games-at-once", &S::games, 1, 1024, "games that a thread advances"},
+            Option<S, int>{"batch", &S::batch, 1, 256, "positions a thread evaluates at once"},
+            Option<S, int>{"simulations", &S::simulations, 1, 100000, "of a full search"},
+            Option<S, int>{"fast-simulations", &S::fast_simulations, 1, 100000,
+                           "of a search that does not teach the policy"},
+            Option<S, float>{"full-share", &S::full_share, 0, 1, "turns with a full search"},
+            Option<S, float>{"cpuct", &S::cpuct, 0, 100, "c of PUCT"},
+            Option<S, float>{"fpu-reduction", &S::fpu_reduction, -10, 10,
+                             "how much worse than its parent an unvisited move is taken to be"},
+            Flag<S>{"symmetries", &S::symmetries, "turn the board at random for the network"},
+            Option<S, float>{"temperature", &S::temperature, 0, 10,
+                             "of the choice among visited moves"},
+            Option<S, float>{"late-temperature", &S::late_temperature, 0, 10,
+                             "likewise after temperature-moves"},
+            Option<S, int>{"temperature-moves", &S::temperature_moves, 0, 10000,
+                           "moves of both played at the first temperature"},
+            Option<S, float>{"opening-share", &S::opening_share, 0, 1,
+                             "games that begin with moves drawn from the policy"},
+            Option<S, int>{"opening-moves", &S::opening_moves, 1, 1000, "their mean number"},
+            Option<S, float>{"resign", &S::resign, -1, 0,
+                             "value below which a side gives up at the earliest; -1: never"},
+            Option<S, int>{"resign-turns", &S::resign_turns, 1, 100,
+                           "turns in a row that it must be so low"},
+            Option<S, float>{"play-on-share", &S::play_on_share, 0, 1,
+                             "games without resignation, by which it is checked"},
+            Option<S, float>{"resign-errors", &S::resign_errors, 0, 1,
+                             "most of those given up that may have been saved"},
+            Option<S, int>{"move-limit", &S::move_limit, 0, 100000,
+                           "moves of both; 0: two a point in Go, else 512"},
+            Option<S, int>{"size", &S::size, 2, 25, "Go: of the board"},
+            Option<S, int>{"least-size", &S::least_size, 0, 25,
+                           "Go: of the smallest board; 0: one size only"},
+            Option<S, float>{"small-share", &S::small_share, 0, 1, "Go: games on smaller boards"},
+            Option<S, float>{"komi", &S::komi, -1000, 1000, "Go: mean, a multiple of 0.5"},
+            Option<S, float>{"komi-deviation", &S::komi_deviation, 0, 100,
+                             "Go: standard deviation of komi, in whole points"},
+        };
+    }
+};
+
+// Fails with engine::Error, saying which, on settings that do not fit each other.
+void check(const ActorSettings& settings);
+
+}  // namespace selfplay::training
