@@ -174,6 +174,12 @@ void Tree::clear() {
     new (&node(root_)) Node;
 }
 
+void Tree::replace_root_priors(std::span<const float> priors) {
+    const auto edges = edge_span(node(root_));
+    assert(priors.size() == edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) edges[i].packed_prior = pack_prior(priors[i]);
+}
+
 bool Tree::advance(engine::Move move) {
     for (Edge& edge : edge_span(node(root_))) {
         if (edge.move != move || edge.child == no_node) continue;

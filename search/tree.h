@@ -124,6 +124,8 @@ class Tree {
     // The rest with no descent under way. Readers, too, must be kept out by the caller.
     void flip();
     void clear();
+    // One a move of the expanded root, in the order of its edges.
+    void replace_root_priors(std::span<const float> priors);
     // Makes the root's child by `move` the root; false (and the tree unchanged) without one.
     bool advance(engine::Move move);
 

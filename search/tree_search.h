@@ -6,12 +6,15 @@
 #pragma once
 
 #include <algorithm>
-#include <bitset>
+#include <cassert>
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include "search/leaf.h"
+#include "search/move_filter.h"
+#include "search/noise.h"
 #include "search/params.h"
 #include "search/selection.h"
 
@@ -22,24 +25,6 @@ enum class Gathered : std::uint8_t {
     absorbed,  // the descent ended at a finished game and is done
     taken,     // the leaf is in other hands: try again later
     full       // the tree is: flip it
-};
-
-// Root moves that the search may take.
-class MoveFilter {
-   public:
-    // All but `avoid`, and of `only` alone unless that is empty.
-    void restrict(std::span<const engine::Move> only, std::span<const engine::Move> avoid) {
-        if (only.empty())
-            barred_.reset();
-        else
-            barred_.set();
-        for (const auto move : only) barred_.reset(move.code);
-        for (const auto move : avoid) barred_.set(move.code);
-    }
-    bool operator()(engine::Move move) const { return !barred_[move.code]; }
-
-   private:
-    std::bitset<65536> barred_;
 };
 
 // A side's own moves that the rest of the game is likely to take, as the clock must plan.
@@ -119,15 +104,26 @@ class TreeSearch {
     }
     void flip() { tree_.flip(); }
 
-    // Walks to a leaf. `share`: also to one that another worker is expanding.
-    Gathered gather(Leaf<G>& leaf, bool share) {
+    // Mixes Dirichlet's noise into the priors of the expanded root: (1 - share) P + share
+    // Dir(alpha) (AlphaGo Zero). Each call mixes in more.
+    void mix_root_noise(engine::Random& random, float share, float alpha) {
+        const auto edges = tree_.edges(tree_.root());
+        auto priors = dirichlet(random, edges.size(), alpha);
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            priors[i] = (1 - share) * edges[i].prior() + share * priors[i];
+        tree_.replace_root_priors(priors);
+    }
+
+    // Walks to a leaf. `share`: also to one that another worker is expanding. `first`: the move
+    // that an expanded root must be left by, one of its edges'.
+    Gathered gather(Leaf<G>& leaf, bool share, std::optional<engine::Move> first = {}) {
         leaf.game = root_;
         leaf.path.assign(1, tree_.root());
         leaf.line.clear();
         leaf.expands = false;
         tree_.enter_root();
         const bool arrived =
-            std::visit([&](const auto& rule) { return descend(leaf, rule); }, rule_);
+            std::visit([&](const auto& rule) { return descend(leaf, rule, first); }, rule_);
         if (!arrived) return tree_.withdraw(leaf.path), Gathered::full;
         const NodeId node = leaf.path.back();
         if (const auto ending = ending_of(node, leaf.game); ending != Ending::none)
@@ -179,12 +175,24 @@ class TreeSearch {
         }
     }
 
+    Edge* edge_of(engine::Move move) {
+        for (Edge& edge : tree_.edges_to_enter(tree_.root()))
+            if (edge.move == move) return &edge;
+        assert(!"the first move is one of the root's");
+        return nullptr;
+    }
+
     template <class SelectionRule>
-    bool descend(Leaf<G>& leaf, const SelectionRule& rule) {
+    Edge* leave_root(const SelectionRule& rule, std::optional<engine::Move> first) {
+        return first ? edge_of(*first) : select(tree_, tree_.root(), rule, filter_);
+    }
+
+    template <class SelectionRule>
+    bool descend(Leaf<G>& leaf, const SelectionRule& rule, std::optional<engine::Move> first) {
         NodeId node = tree_.root();
         while (tree_[node].expanded()) {
             Edge* edge = node == tree_.root()
-                             ? select(tree_, node, rule, filter_)
+                             ? leave_root(rule, first)
                              : select(tree_, node, rule, [](engine::Move) { return true; });
             if (!edge) return true;
             const NodeId child = tree_.enter(*edge);
