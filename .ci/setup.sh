@@ -1,8 +1,8 @@
 # Sourced by ./run, ./test and .ci/run, from the top of the checkout: installs what is missing and builds.
 
 build_packages=(g++ cmake ninja-build libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev zlib1g-dev
-    libeigen3-dev libdnnl-dev protobuf-compiler libprotobuf-dev libzstd-dev)
-test_packages=(libgtest-dev gnugo)
+    libeigen3-dev libdnnl-dev protobuf-compiler libprotobuf-dev libzstd-dev libminizip-dev)
+test_packages=(libgtest-dev gnugo python3-numpy)
 check_packages=(clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev)
 
 # Debian keeps opponents there, and root has it not in its path.

@@ -125,7 +125,7 @@ std::string ChessRulebook::to_text(const GameRecord& record) const {
     if (!record.detail.empty()) ending += ": " + record.detail;
     return chess::pgn::to_text(
         chess::pgn::record_of(start, moves, results[static_cast<std::size_t>(record.outcome)],
-                              {{"Event", "sanban match"},
+                              {{"Event", record.event},
                                {"Round", std::to_string(record.index + 1)},
                                {"White", record.name_of(engine::Player::first)},
                                {"Black", record.name_of(engine::Player::second)},

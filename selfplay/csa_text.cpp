@@ -53,7 +53,7 @@ std::string to_csa(const GameRecord& record) {
     shogi::Record text;
     text.black = record.name_of(engine::Player::first);
     text.white = record.name_of(engine::Player::second);
-    text.facts = {{"EVENT", fmt::format("sanban match game {}", record.index + 1)}};
+    text.facts = {{"EVENT", fmt::format("{} game {}", record.event, record.index + 1)}};
     if (!record.start.empty()) text.start = shogi::Shogi::from_text(record.start);
     append_moves(text, record);
     return (record.index > 0 ? "/\n" : "") + shogi::csa::to_text(text);

@@ -21,6 +21,7 @@ struct GameRecord {
     int index = 0;                       // from 0, in the order of the schedule
     int first = 0;                       // which engine (0 or 1) moves first
     std::array<std::string, 2> names{};  // of engine 0 and engine 1
+    std::string event = "sanban match";  // as game files call it; not kept in games.jsonl
     std::string start;
     std::vector<std::string> moves;  // opening included
     int opening_moves = 0;
