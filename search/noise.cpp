@@ -8,16 +8,15 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Box & Muller 1958.
-double normal(engine::Random& random) {
-    const double radius = std::sqrt(-2 * std::log(open_unit(random)));
-    return radius * std::cos(2 * pi * open_unit(random));
-}
-
 }  // namespace
 
 double open_unit(engine::Random& random) {
     return (static_cast<double>(random() >> 11) + 0.5) / static_cast<double>(1ull << 53);
+}
+
+double normal(engine::Random& random) {
+    const double radius = std::sqrt(-2 * std::log(open_unit(random)));
+    return radius * std::cos(2 * pi * open_unit(random));
 }
 
 float gumbel(engine::Random& random) {

@@ -12,6 +12,9 @@ namespace search {
 // In (0, 1).
 double open_unit(engine::Random& random);
 
+// Standard normal (Box & Muller 1958).
+double normal(engine::Random& random);
+
 // Standard Gumbel: location 0, scale 1.
 float gumbel(engine::Random& random);
 

@@ -1,19 +1,33 @@
 // How self-play games are played: every tunable of an actor, declared once. A value.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string_view>
 #include <tuple>
 
 #include "engine/base/option.h"
 
 namespace selfplay::training {
 
+// How a search explores at the root, and what the policy is taught from it.
+enum class Exploration : std::uint8_t {
+    gumbel,  // moves by Gumbel-top-k and sequential halving; the target is the improved policy
+    noise,   // PUCT with Dirichlet noise; the target is the visit counts
+};
+inline constexpr std::array<std::string_view, 2> exploration_names = {"gumbel", "noise"};
+
 struct ActorSettings {
     int games = 32;  // that a thread advances together
     int batch = 8;   // positions that it asks the network about at once
+    Exploration exploration = Exploration::gumbel;
     // A full search teaches the policy; the rest of the turns get a fast one that does not
     // (playout-cap randomisation, Wu 2019).
     int simulations = 32, fast_simulations = 8;
     float full_share = 0.25f;  // of turns
+    int candidates = 16;
+    float gumbel_scale = 1;
+    float noise_share = 0.25f, noise_alpha = 0;
     float cpuct = 1.25f, fpu_reduction = 0.25f;
     bool symmetries = true;
     float temperature = 1, late_temperature = 0;
@@ -29,22 +43,34 @@ struct ActorSettings {
     float komi = 7.5f, komi_deviation = 0;
 
     static constexpr auto options() {
+        using engine::Choice;
         using engine::Flag;
         using engine::Option;
         using S = ActorSettings;
         return std::tuple{
             Option<S, int>{"games-at-once", &S::games, 1, 1024, "games that a thread advances"},
             Option<S, int>{"batch", &S::batch, 1, 256, "positions a thread evaluates at once"},
+            Choice<S, Exploration>{"exploration", &S::exploration, exploration_names,
+                                   "gumbel: by sequential halving, which teaches well from few "
+                                   "simulations; noise: PUCT with Dirichlet noise"},
             Option<S, int>{"simulations", &S::simulations, 1, 100000, "of a full search"},
             Option<S, int>{"fast-simulations", &S::fast_simulations, 1, 100000,
                            "of a search that does not teach the policy"},
             Option<S, float>{"full-share", &S::full_share, 0, 1, "turns with a full search"},
+            Option<S, int>{"candidates", &S::candidates, 1, 640,
+                           "gumbel: root moves that the halving begins with"},
+            Option<S, float>{"gumbel-scale", &S::gumbel_scale, 0, 100,
+                             "gumbel: weight of values against priors"},
+            Option<S, float>{"noise-share", &S::noise_share, 0, 1,
+                             "noise: of the root's priors in a full search"},
+            Option<S, float>{"noise-alpha", &S::noise_alpha, 0, 100,
+                             "noise: of Dirichlet's distribution; 0: 10 / legal moves"},
             Option<S, float>{"cpuct", &S::cpuct, 0, 100, "c of PUCT"},
             Option<S, float>{"fpu-reduction", &S::fpu_reduction, -10, 10,
                              "how much worse than its parent an unvisited move is taken to be"},
             Flag<S>{"symmetries", &S::symmetries, "turn the board at random for the network"},
             Option<S, float>{"temperature", &S::temperature, 0, 10,
-                             "of the choice among visited moves"},
+                             "noise: of the choice among visited moves"},
             Option<S, float>{"late-temperature", &S::late_temperature, 0, 10,
                              "likewise after temperature-moves"},
             Option<S, int>{"temperature-moves", &S::temperature_moves, 0, 10000,

@@ -5,13 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "search/gumbel.h"
+#include "search/temperature.h"
 #include "search/tree_search.h"
 #include "selfplay/records/game.h"
 #include "selfplay/training/chance.h"
@@ -61,13 +63,15 @@ class Episode {
                     continue;
                 }
             }
-            switch (search_.gather(leaf, false)) {
+            switch (search_.gather(leaf, false, first_move())) {
                 case search::Gathered::leaf:
+                    first_.reset();
                     return true;
                 case search::Gathered::full:
                     search_.flip();
                     break;
                 default:  // one descent at a time: no leaf is in other hands
+                    first_.reset();
                     ++done_;
             }
         }
@@ -118,16 +122,40 @@ class Episode {
     void prepare() {
         prepared_ = true;
         if (edges().size() == 1) target_ = 0;
-        // What is left of the search before counts towards a fast one.
-        if (kind_ == Kind::fast) done_ += static_cast<int>(root().visits) - 1;
+        if (target_ == 0) return;
+        if (settings_.exploration == Exploration::gumbel)
+            gumbel_.emplace(search_.tree(), search_.filter(), target_, gumbel_params(), random_);
+        else if (kind_ == Kind::full)
+            mix_noise();
+        else  // what is left of the search before counts
+            done_ += static_cast<int>(root().visits) - 1;
+    }
+
+    search::GumbelParams gumbel_params() const {
+        search::GumbelParams params;
+        params.considered = settings_.candidates;
+        params.scale = settings_.gumbel_scale;
+        return params;
+    }
+
+    void mix_noise() {
+        const auto alpha = settings_.noise_alpha > 0 ? settings_.noise_alpha
+                                                     : 10 / static_cast<float>(edges().size());
+        search_.mix_root_noise(random_, settings_.noise_share, alpha);
+    }
+
+    // That the descent must begin with; the same until the descent comes off.
+    std::optional<engine::Move> first_move() {
+        if (gumbel_ && !first_) first_ = gumbel_->next();
+        return first_;
     }
 
     // Makes a move; false when the game is over.
     bool play() {
         const float value = -root().mean();
         if (gives_up(value)) return finish_resigned(), false;
-        count_visits();
         const auto move = choose(value);
+        gumbel_.reset();
         search_.advance(move);
         const auto& game = position();
         const bool over = game.outcome() != engine::Outcome::ongoing;
@@ -150,54 +178,49 @@ class Episode {
         record_.outcome = engine::win_for(~position().to_play());
     }
 
-    void count_visits() {
-        moves_.clear();
-        weights_.clear();
-        for (const auto& edge : edges()) {
-            const auto child = search_.tree().child(search_.tree().root(), edge);
-            moves_.push_back(edge.move);
-            weights_.push_back(
-                child == search::no_node ? 0 : static_cast<float>(search_.tree()[child].visits));
-        }
-    }
-
     // The move to play, recorded with what it teaches.
     engine::Move choose(float value) {
-        const auto simulations = static_cast<std::uint32_t>(target_);
-        float sum = 0;
-        for (const float weight : weights_) sum += weight;
-        if (kind_ == Kind::opening || sum == 0) {
-            const auto move = moves_[draw_by_priors()];
-            record_.add(move, value, simulations, {}, {});
-            return move;
+        if (kind_ == Kind::opening || target_ == 0) return play_prior(value);
+        const auto move = gumbel_ ? gumbel_->best() : draw_by_visits();
+        moves_.clear();
+        if (kind_ == Kind::full) {
+            ++taught_;
+            for (const auto& edge : edges()) moves_.push_back(edge.move);
         }
-        const auto move = moves_[draw_by_visits()];
-        for (float& weight : weights_) weight /= sum;
-        const bool teaches = kind_ == Kind::full && target_ > 0;
-        taught_ += teaches;
-        record_.add(
-            move, value, simulations,
-            teaches ? std::span<const engine::Move>(moves_) : std::span<const engine::Move>(),
-            weights_);
+        record_.add(move, value, static_cast<std::uint32_t>(target_), moves_, policy());
         return move;
     }
 
-    std::size_t draw_by_priors() {
+    // Drawn from the policy, without a search.
+    engine::Move play_prior(float value) {
         chances_.clear();
         for (const auto& edge : edges()) chances_.push_back(edge.prior());
-        return draw(random_, chances_);
+        const auto move = edges()[draw(random_, chances_)].move;
+        record_.add(move, value, 0, {}, {});
+        return move;
     }
 
-    std::size_t draw_by_visits() {
-        const auto most = std::max_element(weights_.begin(), weights_.end());
-        const float temperature = plies() < static_cast<std::size_t>(settings_.temperature_moves)
-                                      ? settings_.temperature
-                                      : settings_.late_temperature;
-        if (temperature < 0.01f) return static_cast<std::size_t>(most - weights_.begin());
-        chances_.clear();
-        for (const float weight : weights_)
-            chances_.push_back(std::pow(weight / *most, 1 / temperature));
-        return draw(random_, chances_);
+    engine::Move draw_by_visits() {
+        visits_.clear();
+        for (const auto& edge : edges()) {
+            const auto child = search_.tree().child(search_.tree().root(), edge);
+            visits_.push_back(child == search::no_node ? 0 : search_.tree()[child].visits.load());
+        }
+        const bool early = plies() < static_cast<std::size_t>(settings_.temperature_moves);
+        const float temperature = early ? settings_.temperature : settings_.late_temperature;
+        return edges()[search::draw_by_count(visits_, temperature, random_)].move;
+    }
+
+    // What the search would have the policy be.
+    std::vector<float> policy() const {
+        if (gumbel_)
+            return search::improved_policy(search_.tree(), search_.filter(), gumbel_params());
+        std::uint64_t sum = 0;
+        for (const auto visits : visits_) sum += visits;
+        std::vector<float> shares;
+        for (const auto visits : visits_)
+            shares.push_back(static_cast<float>(visits) / static_cast<float>(sum));
+        return shares;
     }
 
     ActorSettings settings_;
@@ -212,12 +235,15 @@ class Episode {
     Kind kind_ = Kind::fast;
     int target_ = 0, done_ = 0;  // simulations beyond the root's own
     bool prepared_ = false;
+    std::optional<search::GumbelRoot> gumbel_;  // of a search that goes by it
+    std::optional<engine::Move> first_;
 
     int opening_ = 0;  // moves to be drawn from the policy
     std::size_t taught_ = 0;
     std::array<int, 2> low_turns_{};
-    std::vector<engine::Move> moves_;  // at the root, with their visits or shares
-    std::vector<float> weights_, chances_;
+    std::vector<engine::Move> moves_;    // of the policy target
+    std::vector<std::uint64_t> visits_;  // of the root's edges
+    std::vector<float> chances_;
 };
 
 }  // namespace selfplay::training

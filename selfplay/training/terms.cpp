@@ -40,7 +40,7 @@ void write_outcome(const G& game, records::Game& record) {
 template <>
 go::Go first_position<go::Go>(const ActorSettings& settings, engine::Random& random) {
     const int size = draw_size(settings, random);
-    const double shift = static_cast<double>(settings.komi_deviation) * normal(random);
+    const double shift = static_cast<double>(settings.komi_deviation) * search::normal(random);
     const int halves =
         static_cast<int>(std::lround(settings.komi * 2)) + 2 * static_cast<int>(std::lround(shift));
     return go::Go(size, go::Komi::from_halves(halves), self_play_rules());
