@@ -197,6 +197,7 @@ class Gtp {
     search::Limits move_limits(engine::Player player);
     std::optional<search::Milliseconds> reading_time(engine::Player player) const;
     go::Go root_for(engine::Player player) const;
+    bool disputed(engine::Player player) const;
     Ending read_ending(const go::Go& game, bool clean_up);
     void allow_cut(Cut cut);
     search::Analysis think(const go::Go& root, const search::Limits& limits,

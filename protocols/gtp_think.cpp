@@ -124,6 +124,17 @@ std::optional<Milliseconds> Gtp::reading_time(Player player) const {
     return std::min(left.longest_move() / 32, Milliseconds(1000));
 }
 
+// The opponent went on after a pass of ours: perhaps the board counts as it stands, whatever the
+// rules say. Where captures cost nothing they then come before the next pass.
+bool Gtp::disputed(Player player) const {
+    if (now().rules().scoring != go::Scoring::area) return false;
+    const auto goes_on = [&](const go::sgf::Turn& one, const go::sgf::Turn& next) {
+        return one.player == player && one.move == go::Go::pass && next.player != player &&
+               next.move != go::Go::pass;
+    };
+    return std::adjacent_find(turns_.begin(), turns_.end(), goes_on) != turns_.end();
+}
+
 Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
     constexpr Milliseconds too_short{20};
     const auto time = reading_time(game.to_play());
@@ -148,7 +159,8 @@ std::string Gtp::choose(const Errand& errand) {
         limits.avoid = errand.reports->avoid;
     }
     const bool restricted = !limits.only.empty() || !limits.avoid.empty();
-    const auto end = restricted ? Ending{} : read_ending(game, errand.cleans_up);
+    const bool cleans_up = errand.cleans_up || disputed(errand.player);
+    const auto end = restricted ? Ending{} : read_ending(game, cleans_up);
     if (limits.only.empty()) avoid_own_eyes(game, limits.avoid);
     if (end.pass) shorten(limits);
     limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());

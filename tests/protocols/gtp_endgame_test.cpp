@@ -155,6 +155,20 @@ TEST(GtpEndgame, CleaningUpTakesTheOpponentsDeadStones) {
     EXPECT_EQ(guest.ask("final_score"), "B+1.5");
 }
 
+// Rules that ask for agreement do not help where nobody asks: who plays on wants it played out.
+TEST(GtpEndgame, PlayAfterItsPassIsAnsweredByCaptures) {
+    GtpGuest guest(small_game(9, 1500));
+    ASSERT_EQ(guest.say(setup(both_have_dead)), "=");
+    EXPECT_EQ(guest.ask("genmove b"), "pass");
+    guest.say("play w j5");
+    int moves = 0;
+    for (; guest.ask("genmove b") != "pass"; ++moves) {
+        ASSERT_LT(moves, 3) << guest.ask("showboard");
+        guest.say("play w pass");
+    }
+    EXPECT_EQ(guest.ask("captures b"), "1");
+}
+
 TEST(GtpEndgame, APassIsAnsweredByAPassThatWins) {
     for (const char* rules : {"chinese", "tromp-taylor", "japanese"}) {
         GtpGuest guest;

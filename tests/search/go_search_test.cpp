@@ -115,5 +115,26 @@ TEST(GoSearch, StopsInTheMiddleOfLongRollouts) {
     EXPECT_EQ(searcher.analysis().moves.size(), 626u);
 }
 
+// Games of Go end slowly: 150 more of one's own moves after the board is full, each a little later
+// than it should be, must still find time on the clock.
+TEST(GoSearch, PlansItsClockForTheWholeGame) {
+    for (const int size : {9, 13, 19}) {
+        TimeControl control;
+        control.unlimited = false;
+        control.main = Milliseconds(30000);
+        auto left = TimeLeft::start_of(control);
+        Go game(size);
+        const Milliseconds lag(20);
+        Milliseconds in_the_opening(0);
+        for (int move = 0; move < size * size + 100; ++move) {
+            const auto time = allot(left, moves_to_come(game), lag);
+            if (move == 0) in_the_opening = time->soft;
+            if (move % 2 == 0) ASSERT_TRUE(left.spend(time->soft + lag)) << size << ' ' << move;
+            game.play(Go::pass);
+        }
+        EXPECT_GT(in_the_opening, Milliseconds(100));
+    }
+}
+
 }  // namespace
 }  // namespace search
