@@ -38,10 +38,20 @@ void shorten(search::Limits& limits) {
     limits.clock.reset();
 }
 
-// A pass is always better.
-void avoid_own_eyes(const go::Go& game, std::vector<go::Move>& avoid) {
+bool is_suicide(const go::Go& game, go::Move move) {
+    const auto point = game.point_of(move);
+    if (!point) return false;
+    go::Go after = game;
+    after.play(move);
+    return !after.at(*point);
+}
+
+// Where a pass is always better, or nearly: and for suicide, where the rules allow it, opponents
+// and referees that know no such rules would make the game a lost one.
+void avoid_useless(const go::Go& game, std::vector<go::Move>& avoid) {
     for (const go::Move move : game.legal_moves())
-        if (game.fills_own_eye(move)) avoid.push_back(move);
+        if (game.fills_own_eye(move) || (game.rules().suicide && is_suicide(game, move)))
+            avoid.push_back(move);
 }
 
 // Where the search broke off before it knew any.
@@ -161,7 +171,7 @@ std::string Gtp::choose(const Errand& errand) {
     const bool restricted = !limits.only.empty() || !limits.avoid.empty();
     const bool cleans_up = errand.cleans_up || disputed(errand.player);
     const auto end = restricted ? Ending{} : read_ending(game, cleans_up);
-    if (limits.only.empty()) avoid_own_eyes(game, limits.avoid);
+    if (limits.only.empty()) avoid_useless(game, limits.avoid);
     if (end.pass) shorten(limits);
     limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());
     if (limits.clock) limits.clock = reduced(*limits.clock, since(start));

@@ -22,9 +22,10 @@ std::string reason() { return std::generic_category().message(errno); }
 
 class Descriptor {
    public:
-    Descriptor(const std::filesystem::path& path, int flags)
-        : path_(path), fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
-        if (fd_ < 0) fail("{}: cannot open for writing: {}", path.string(), reason());
+    // Errors name the file `meant`, which `opened` may be a forerunner of.
+    Descriptor(const std::filesystem::path& opened, int flags, const std::filesystem::path& meant)
+        : path_(meant), fd_(::open(opened.c_str(), flags | O_CLOEXEC, 0666)) {
+        if (fd_ < 0) fail("{}: cannot open for writing: {}", path_.string(), reason());
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -78,13 +79,13 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) &&
         !std::filesystem::is_regular_file(path, ignored)) {
-        Descriptor file(path, O_WRONLY);
+        Descriptor file(path, O_WRONLY, path);
         file.write_all(bytes);
         return file.sync_and_close();
     }
     const std::filesystem::path temporary = fmt::format("{}.{}.tmp", path.string(), ::getpid());
     try {
-        Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+        Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC, path);
         file.write_all(bytes);
         file.sync_and_close();
         std::filesystem::rename(temporary, path);
@@ -98,7 +99,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 void append_file(const std::filesystem::path& path, std::string_view bytes) {
-    Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
+    Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND, path);
     file.write_all(bytes);
     file.sync_and_close();
 }

@@ -70,11 +70,11 @@ class Go {
     // Prisoners that `player` took, those of an opponent's suicide among them.
     int captured_by(Player player) const { return captured_[side(player)]; }
     int consecutive_passes() const { return passes_; }
-    // Of one side, as games usually go: some 0.7 moves a point in all, never fewer than a tenth of
+    // Of one side, as games usually go: some 0.7 moves a point in all, never fewer than a sixth of
     // the points, since the end of a game is slow to come.
     int moves_to_come() const {
         const int points = size() * size();
-        return std::max((points * 7 / 10 - move_count_) / 2, points / 10 + 1);
+        return std::max((points * 7 / 10 - move_count_) / 2, points / 6 + 4);
     }
 
     // The stones as they stood `ago` moves earlier, 0 <= ago < remembered, no further back than

@@ -108,6 +108,22 @@ TEST(GtpEndgame, NoOwnEyeIsFilledByASideThatHasLost) {
     }
 }
 
+// Opponents that know no such rule would call it an illegal move.
+TEST(GtpEndgame, PlaysNoSuicideWhereItIsLegal) {
+    constexpr std::string_view only_suicide_left[] = {
+        "X . O O .",  //
+        "O O O O O",  //
+        "O O O O O",  //
+        "O O O O O",  //
+        ". O O O O",
+    };
+    GtpGuest guest(small_game(5, 100));
+    guest.say("kata-set-rules tromp-taylor");
+    ASSERT_EQ(guest.say(setup(only_suicide_left)), "=");
+    EXPECT_EQ(guest.ask("is_legal b b5"), "1");
+    EXPECT_EQ(guest.ask("genmove b"), "pass");
+}
+
 TEST(GtpEndgame, TheScoreIsTheBoardWithoutTheDeadStones) {
     for (const auto& [rules, result] : {std::pair{"chinese", "B+1.5"}, {"japanese", "W+7.5"}}) {
         GtpGuest guest;

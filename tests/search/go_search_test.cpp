@@ -115,8 +115,8 @@ TEST(GoSearch, StopsInTheMiddleOfLongRollouts) {
     EXPECT_EQ(searcher.analysis().moves.size(), 626u);
 }
 
-// Games of Go end slowly: 150 more of one's own moves after the board is full, each a little later
-// than it should be, must still find time on the clock.
+// Games of Go end slowly: as many moves as points and a quarter more, each later than planned by
+// all that is kept back, must find time on the clock.
 TEST(GoSearch, PlansItsClockForTheWholeGame) {
     for (const int size : {9, 13, 19}) {
         TimeControl control;
@@ -126,7 +126,7 @@ TEST(GoSearch, PlansItsClockForTheWholeGame) {
         Go game(size);
         const Milliseconds lag(20);
         Milliseconds in_the_opening(0);
-        for (int move = 0; move < size * size + 100; ++move) {
+        for (int move = 0; move < size * size * 5 / 4; ++move) {
             const auto time = allot(left, moves_to_come(game), lag);
             if (move == 0) in_the_opening = time->soft;
             if (move % 2 == 0) ASSERT_TRUE(left.spend(time->soft + lag)) << size << ' ' << move;
