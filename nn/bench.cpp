@@ -1,11 +1,11 @@
 #include "nn/bench.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <thread>
 
+#include "engine/base/measure.h"
 #include "nn/backend.h"
 #include "nn/builders.h"
 #include "nn/peak.h"
@@ -19,20 +19,14 @@ namespace {
 
 constexpr int repeats = 5;
 
-double thread_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 // How much of `run`'s yield comes about in a second of this thread.
 template <class Run>
 double rate(double seconds, Run run) {
-    const double start = thread_seconds();
+    const double start = engine::processor_seconds();
     double done = 0, now = start;
     do {
         done += run();
-        now = thread_seconds();
+        now = engine::processor_seconds();
     } while (now - start < seconds);
     return done / (now - start);
 }

@@ -25,10 +25,13 @@ double copy_time(double seconds, const T& value) {
     std::vector<T> values(2, value);
     // Volatile, or the compiler would see that the copies change nothing.
     volatile std::size_t from = 0;
-    const double rate = engine::calls_per_second(seconds, [&] {
-        values[1 - from] = values[from];
-        from = 1 - from;
-    });
+    const double rate = engine::calls_per_second(
+        seconds,
+        [&] {
+            values[1 - from] = values[from];
+            from = 1 - from;
+        },
+        10000);
     return 1e9 / rate;
 }
 

@@ -74,7 +74,7 @@ double samples_per_second(const TowerDescription& about, Precision precision, do
     Learner learner(build_tower(about, random), settings);
     learner.step(samples);  // makes what the batch size needs
     return batch * engine::calls_per_second(
-                       seconds, [&] { learner.step(samples); }, 1);
+                       seconds, [&] { learner.step(samples); }, 1, engine::wall_seconds);
 }
 
 }  // namespace
