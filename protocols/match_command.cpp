@@ -68,7 +68,7 @@ struct Input {
     std::vector<double> sprt;
     std::vector<int> draw, resign;
     int handicap = 0;
-    double margin = 0, grace = 5, move_timeout = 300, command_timeout = 30;
+    double margin = 0, grace = 5, move_timeout = 300, start_timeout = 120, command_timeout = 30;
     bool same_colours = false;
 };
 
@@ -116,7 +116,8 @@ void add_game(CLI::App& app, Input& input) {
         ->check(CLI::IsMember({"go", "chess", "shogi"}))
         ->capture_default_str();
     app.add_option("--entering-king", match.declaration_rule,
-                   "shogi: the rule of declaring a win, as EnteringKingRule names it")
+                   "shogi: the rule by which a win may be declared, as EnteringKingRule names it; "
+                   "who may, has won")
         ->capture_default_str();
     app.add_option("--openings", match.openings.file,
                    "file of games or positions to begin with: SGF; EPD, FEN or PGN; SFEN")
@@ -172,6 +173,8 @@ void add_clock(CLI::App& app, Input& input) {
         ->capture_default_str();
     app.add_option("--move-timeout", input.move_timeout,
                    "seconds for a move without a clock, then the engine counts as hung")
+        ->capture_default_str();
+    app.add_option("--start-timeout", input.start_timeout, "seconds until an engine has started")
         ->capture_default_str();
     app.add_option("--command-timeout", input.command_timeout, "seconds for any other answer")
         ->capture_default_str();
@@ -260,6 +263,7 @@ MatchSettings settings_of(const Input& input) {
     match.rules.margin = milliseconds(input.margin, "margin");
     match.rules.grace = milliseconds(input.grace, "grace");
     match.rules.move_timeout = milliseconds(input.move_timeout, "move-timeout");
+    match.rules.start_timeout = milliseconds(input.start_timeout, "start-timeout");
     match.rules.command_timeout = milliseconds(input.command_timeout, "command-timeout");
     match.alternate = !input.same_colours;
     match.sprt = sprt_of(input);
@@ -288,8 +292,7 @@ int play(const MatchSettings& settings) {
     const StopOnSignal signals;
     selfplay::Match match(settings, [&](int engine, std::stop_token stop) {
         return selfplay::make_player(settings.players[static_cast<std::size_t>(engine)],
-                                     settings.game, settings.rules.command_timeout,
-                                     std::move(stop));
+                                     settings.game, settings.rules.start_timeout, std::move(stop));
     });
     if (const int played = match.standing().tally.games())
         fmt::print(stderr, "{} games found in {}; going on\n", played, settings.out.string());
@@ -306,12 +309,14 @@ std::string progress_line(const selfplay::GameRecord& record, const Standing& st
     const auto& tally = standing.tally;
     const auto elo = elo_of(tally);
     const int winner = record.winner();
+    // What went wrong, where something did: whose fault it was, and how.
+    const auto behind = record.by_fault() ? fmt::format(" ({})", record.detail) : record.score;
     auto line =
         fmt::format("game {}/{} {} {}{}{} | {} {} {} | {:.1f} % | Elo {:+.1f} [{:+.1f}, {:+.1f}]",
                     tally.games(), standing.games_wanted,
                     winner < 0 ? "draw" : record.names[static_cast<std::size_t>(winner)],
-                    record.reason, record.score.empty() ? "" : " ", record.score, tally.wins,
-                    tally.draws, tally.losses, 100 * tally.score(), elo.value, elo.low, elo.high);
+                    record.reason, record.score.empty() ? "" : " ", behind, tally.wins, tally.draws,
+                    tally.losses, 100 * tally.score(), elo.value, elo.low, elo.high);
     if (standing.llr) line += fmt::format(" | LLR {:.2f}", *standing.llr);
     return line;
 }

@@ -147,6 +147,7 @@ struct Match::State {
             try {
                 pair[engine] = factory(static_cast<int>(engine), stop.get_token());
             } catch (const Fault& fault) {
+                if (fault.kind == Fault::Kind::stopped) throw;
                 engine::fail("{}: does not start: {}", player.command, fault.what());
             }
             names[engine] = player.name.empty() ? pair[engine]->name() : player.name;
@@ -154,6 +155,16 @@ struct Match::State {
         }
         if (names[0] == names[1]) names[0] += " 1", names[1] += " 2";
         return pair;
+    }
+
+    // By as many threads as wanted; returns when the last of them is done.
+    void play_all(const GameReport& report) try {
+        auto first = start_first();
+        std::vector<std::jthread> others;
+        for (int i = 1; i < std::min(settings.concurrency, settings.games); ++i)
+            others.emplace_back([&] { work({}, report); });
+        work(std::move(first), report);
+    } catch (const Fault&) {  // stopped while the first pair was starting
     }
 
     // Starts whoever does not run. One that started before and now fails to loses this game.
@@ -227,13 +238,7 @@ void Match::run(const std::stop_token& stop, const GameReport& report) {
     auto& state = *state_;
     if (state.standing.verdict != Sprt::Verdict::undecided) return;
     const std::stop_callback forward(stop, [&] { state.stop.request_stop(); });
-    auto first = state.start_first();
-    {
-        const int threads = std::min(state.settings.concurrency, state.settings.games);
-        std::vector<std::jthread> others;
-        for (int i = 1; i < threads; ++i) others.emplace_back([&] { state.work({}, report); });
-        state.work(std::move(first), report);
-    }
+    state.play_all(report);
     if (state.failure) std::rethrow_exception(state.failure);
 }
 

@@ -89,8 +89,7 @@ class Game {
         } catch (const Fault& fault) {
             if (fault.kind == Fault::Kind::stopped) throw;
             faulty_ = static_cast<int>(culprit_);
-            if (!over())
-                end(engine::win_for(~side_of(culprit_)), reason_of(fault.kind), fault.what());
+            if (!over()) lose(side_of(culprit_), reason_of(fault.kind), fault.what());
         }
         return {std::move(record_), faulty_};
     }
@@ -118,6 +117,12 @@ class Game {
         record_.reason = reason;
         record_.detail = detail;
         over_ = true;
+    }
+
+    // By a fault, which the record lays at the player's door.
+    void lose(engine::Player side, std::string_view reason, std::string_view detail) {
+        const auto& name = record_.names[engine_of(side)];
+        end(engine::win_for(~side), reason, fmt::format("{}: {}", name, detail));
     }
 
     void set_up() {
@@ -156,7 +161,7 @@ class Game {
         record_.milliseconds.pop_back();
         if (answer.kind == Answer::Kind::resign) return end(engine::win_for(~mover), "resignation");
         if (referee_->may_claim_win()) return end(engine::win_for(mover), "declaration");
-        end(engine::win_for(~mover), "illegal move", "declared a win that is none");
+        lose(mover, "illegal move", "declared a win that is none");
     }
 
     bool in_time(engine::Player mover, Milliseconds used) {
@@ -167,8 +172,7 @@ class Game {
             return true;
         }
         record_.milliseconds.pop_back();
-        end(engine::win_for(~mover), "time",
-            fmt::format("used {:.3f} s of {:.3f} s", seconds(used), seconds(most)));
+        lose(mover, "time", fmt::format("used {:.3f} s of {:.3f} s", seconds(used), seconds(most)));
         return false;
     }
 
@@ -177,8 +181,8 @@ class Game {
         if (!objection.empty()) {
             record_.milliseconds.pop_back();
             faulty_ = static_cast<int>(culprit_);
-            return end(engine::win_for(~mover), "illegal move",
-                       fmt::format("{}: {}", answer.move.substr(0, 40), objection));
+            return lose(mover, "illegal move",
+                        fmt::format("{}: {}", answer.move.substr(0, 40), objection));
         }
         record_.moves.push_back(written);
         judgements_.note(mover, answer);
@@ -252,7 +256,8 @@ PlayedGame forfeit(const GameOrder& order, int engine, const Fault& fault) {
     record.outcome =
         engine::win_for(engine == order.first ? engine::Player::second : engine::Player::first);
     record.reason = reason_of(fault.kind);
-    record.detail = fmt::format("at its start: {}", fault.what());
+    record.detail = fmt::format("{}: at its start: {}",
+                                record.names[static_cast<std::size_t>(engine)], fault.what());
     return {std::move(record), engine};
 }
 

@@ -1,5 +1,5 @@
 // One game of a match: two players, our referee and our clocks. A fault of a player loses it the
-// game and is written down; it never escapes.
+// game and is written down under the player's name; it never escapes.
 #pragma once
 
 #include <array>
@@ -28,6 +28,7 @@ struct GameRules {
     Milliseconds margin{0};                   // may be overstepped without loss
     Milliseconds grace{5000};             // past the clock, until a silent engine counts as hung
     Milliseconds move_timeout{300000};    // the same for moves without a clock
+    Milliseconds start_timeout{120000};   // until an engine has started: some load for a minute
     Milliseconds command_timeout{30000};  // for every other answer
     int move_limit = 0;                   // opening included; 0: none
     Adjudication adjudication;

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -202,7 +203,8 @@ bool Process::ended_before(Deadline deadline) {
 void Process::report_end() {
     if (!ended_before(Clock::now() + 500ms)) throw Fault(Fault::Kind::crash, "closed its output");
     if (WIFSIGNALED(status_))
-        throw Fault(Fault::Kind::crash, fmt::format("killed by signal {}", WTERMSIG(status_)));
+        throw Fault(Fault::Kind::crash, fmt::format("killed by signal {} ({})", WTERMSIG(status_),
+                                                    ::sigdescr_np(WTERMSIG(status_))));
     throw Fault(Fault::Kind::crash, fmt::format("exited with status {}", WEXITSTATUS(status_)));
 }
 

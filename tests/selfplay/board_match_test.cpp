@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "engine/base/files.h"
+#include "engine/chess/pgn.h"
+#include "engine/shogi/csa.h"
 #include "selfplay/make_player.h"
 #include "selfplay/match.h"
 #include "selfplay/time_text.h"
@@ -87,6 +90,43 @@ class BoardMatch : public ::testing::Test {
     tests::TemporaryFolder folder_;
 };
 
+// Our own reader finds every game again.
+void expect_pgn_tells(const std::filesystem::path& path, const std::vector<GameRecord>& records) {
+    const auto file = chess::pgn::open(path);
+    chess::pgn::Reader reader(*file);
+    for (const auto& record : records) {
+        const auto game = reader.next();
+        ASSERT_TRUE(game);
+        EXPECT_EQ(game->tag("White"), record.name_of(engine::Player::first));
+        EXPECT_EQ(game->tag("Round"), std::to_string(record.index + 1));
+        auto position = game->start;
+        std::vector<std::string> moves;
+        for (const auto move : game->main_line()) {
+            moves.push_back(position.move_to_text(move));
+            position.play(move);
+        }
+        EXPECT_EQ(moves, record.moves);
+        EXPECT_EQ(game->result, record.outcome == engine::Outcome::second_wins ? "0-1" : "1-0");
+    }
+    EXPECT_FALSE(reader.next());
+}
+
+void expect_csa_tells(const std::string& text, const std::vector<GameRecord>& records) {
+    const auto games = shogi::csa::parse(text);
+    ASSERT_EQ(games.size(), records.size());
+    for (std::size_t i = 0; i < games.size(); ++i) {
+        EXPECT_EQ(games[i].black, records[i].name_of(engine::Player::first));
+        EXPECT_EQ(games[i].outcome(), records[i].outcome);
+        auto position = games[i].start;
+        std::vector<std::string> moves;
+        for (const auto move : games[i].main_line()) {
+            moves.push_back(position.move_to_text(move));
+            position.play(move);
+        }
+        EXPECT_EQ(moves, records[i].moves);
+    }
+}
+
 TEST_F(BoardMatch, ChessOverUciAndXboard) {
     const auto set = settings("chess", "uci", "xboard", fools_mate);
     const auto records = play(set);
@@ -98,6 +138,7 @@ TEST_F(BoardMatch, ChessOverUciAndXboard) {
     }
     EXPECT_NE(engine::read_file(set.out / "games.pgn").find("1. f3 e5 2. g4 Qh4# 0-1"),
               std::string::npos);
+    expect_pgn_tells(set.out / "games.pgn", records);
     EXPECT_NE(told().find("go wtime 10000 btime 10000 winc 1000 binc 1000\n"), std::string::npos)
         << told();
     EXPECT_NE(told().find("level 0 0:10 1\n"), std::string::npos);
@@ -140,8 +181,26 @@ TEST_F(BoardMatch, OpeningsFromEpd) {
         EXPECT_EQ(record.reason, "checkmate") << record.detail;
         EXPECT_EQ(record.moves.size(), 1u);
     }
+    expect_pgn_tells(set.out / "games.pgn", records);
     EXPECT_NE(told().find("setboard rnbqkbnr/pppp1ppp/8/4p3/6P1/5P2/PPPPP2P/RNBQKBNR b KQkq - 0 1"),
               std::string::npos);
+}
+
+TEST_F(BoardMatch, AStoppedMatchGoesOn) {
+    auto set = settings("chess", "uci", "uci", fools_mate);
+    EXPECT_EQ(play(set).size(), 2u);
+    set.games = 4;
+    const auto rest = play(set);
+    ASSERT_EQ(rest.size(), 2u);
+    EXPECT_EQ(rest[0].index, 2);
+    std::istringstream pgn(engine::read_file(set.out / "games.pgn"));
+    chess::pgn::Reader reader(pgn);
+    int games = 0;
+    while (const auto game = reader.next()) {
+        ++games;
+        EXPECT_EQ(game->main_line().size(), 4u);
+    }
+    EXPECT_EQ(games, 4);
 }
 
 TEST_F(BoardMatch, OpeningsFromPgn) {
@@ -195,6 +254,7 @@ TEST_F(BoardMatch, ShogiOverUsiAndGnushogi) {
     for (const auto* line : {"PI\n+\n", "+7776FU\nT0\n-3334FU\n", "+8822UM\n", "-3122GI\n",
                              "+0045KA\n", "-0085KA\n", "%MAX_MOVES\n", "/\nV2.2\n"})
         EXPECT_NE(csa.find(line), std::string::npos) << line << csa;
+    expect_csa_tells(csa, records);
 }
 
 TEST_F(BoardMatch, OpeningsFromSfen) {

@@ -71,6 +71,7 @@ TEST_P(MatchFaults, LoseTheGameNotTheMatch) {
     for (const auto& record : records) {
         EXPECT_EQ(record.winner(), 0) << record.detail;
         EXPECT_EQ(record.reason, GetParam().reason) << record.detail;
+        EXPECT_TRUE(record.detail.starts_with("fake-" + GetParam().mode + ": ")) << record.detail;
         EXPECT_NE(record.detail.find(GetParam().detail), std::string::npos) << record.detail;
         EXPECT_EQ(record.moves.size(), record.index == 0 ? 5u : 4u);
     }
@@ -78,7 +79,7 @@ TEST_P(MatchFaults, LoseTheGameNotTheMatch) {
 
 INSTANTIATE_TEST_SUITE_P(All, MatchFaults,
                          ::testing::Values(FaultCase{"crash", "crash", "exited with status 3"},
-                                           FaultCase{"abort", "crash", "killed by signal 11"},
+                                           FaultCase{"abort", "crash", "killed by signal 11 (Segm"},
                                            FaultCase{"hang", "hang", "no answer"},
                                            FaultCase{"mute", "crash", "closed its output"},
                                            FaultCase{"illegal", "illegal move", "D1: occupied"},
