@@ -52,7 +52,8 @@ class Session {
     virtual std::string position_text() const = 0;
     // Whether the mover may end the game in its favour by a declaration (shogi's impasse).
     virtual bool can_declare_win() const = 0;
-    // Blocks; from any thread while nothing changes the session. Unknown in games without mate.
+    // Blocks; from any thread while nothing changes the session. Its table is within the memory
+    // budget, whatever the limits say. Unknown in games without mate.
     virtual search::MateResult find_mate(const search::MateLimits& limits) const = 0;
 
     virtual search::SearchParams params() const = 0;
@@ -72,10 +73,17 @@ class Session {
     virtual bool thinking() const = 0;
 };
 
+// Games in which a king can be mated.
+template <class G>
+concept HasMate = requires(const G& game) {
+    game.position().in_check();
+};
+
 template <engine::Game G>
 class GameSession final : public Session {
    public:
-    explicit GameSession(const search::SearchParams& params) : searcher_(params), games_(1) {}
+    explicit GameSession(const search::SearchParams& params)
+        : params_(params), searcher_(for_tree(params)), games_(1) {}
 
     // Applied to the present game and to every start from now on: settings that no position text
     // holds (Chess960 notation, rules of impasse).
@@ -160,13 +168,21 @@ class GameSession final : public Session {
     }
 
     search::MateResult find_mate(const search::MateLimits& limits) const override {
-        if constexpr (requires(const G& game) { game.position().in_check(); })
-            return search::find_mate(now(), limits);
-        return {};
+        if constexpr (HasMate<G>) {
+            auto bounded = limits;
+            bounded.table_bytes =
+                static_cast<std::size_t>(search::mate_mebibytes(params_.memory_mib)) << 20;
+            return search::find_mate(now(), bounded);
+        } else {
+            return {};
+        }
     }
 
-    search::SearchParams params() const override { return searcher_.params(); }
-    void set_params(const search::SearchParams& params) override { searcher_.set_params(params); }
+    search::SearchParams params() const override { return params_; }
+    void set_params(const search::SearchParams& params) override {
+        searcher_.set_params(for_tree(params));
+        params_ = params;
+    }
 
     void load_network(const std::string& file, nn::Precision precision) override {
         if (file.empty()) return searcher_.set_network(nullptr);
@@ -198,6 +214,13 @@ class GameSession final : public Session {
     bool thinking() const override { return searcher_.thinking(); }
 
    private:
+    // A mate search may run beside the tree's.
+    static search::SearchParams for_tree(search::SearchParams params) {
+        if (HasMate<G>) params.memory_mib -= search::mate_mebibytes(params.memory_mib);
+        return params;
+    }
+
+    search::SearchParams params_;  // as they were given
     search::Searcher<G> searcher_;
     std::vector<G> games_;  // the present state last
     std::function<void(G&)> house_rules_;

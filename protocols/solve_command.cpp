@@ -121,6 +121,8 @@ class Solver {
         limits.checks_only = std::is_same_v<G, shogi::Shogi>;
         limits.nodes = flags_.nodes;
         limits.time = flags_.time(flags_.nodes.has_value());
+        limits.table_bytes =
+            static_cast<std::size_t>(search::mate_mebibytes(flags_.params.memory_mib)) << 20;
         return search::find_mate(game, limits);
     }
 
@@ -145,7 +147,11 @@ class Solver {
     template <class Problem>
     Verdict find_move(const Problem& problem) {
         // Made once it is needed: mates need no tree.
-        if (!searcher_) searcher_ = std::make_unique<search::Searcher<G>>(flags_.params);
+        if (!searcher_) {
+            auto params = flags_.params;
+            params.memory_mib -= search::mate_mebibytes(params.memory_mib);
+            searcher_ = std::make_unique<search::Searcher<G>>(params);
+        }
         searcher_->set_position(problem.game);
         searcher_->clear();
         search::Limits limits;

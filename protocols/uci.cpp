@@ -246,6 +246,7 @@ void Uci::think(const GoCommand& go) {
     silenced_ = false;
     mate_.reset();
     mate_known_ = false;
+    allowed_.clear();
     if (go.mate && dialect_.asks_for_checkmate) return solve(go);
     const bool answers = !go.infinite && !go.ponder;
     if (answers && session_->can_declare_win()) return out_.line("bestmove win");
@@ -258,10 +259,11 @@ void Uci::search(const GoCommand& go) {
     auto limits = limits_of(go, session_->to_play());
     for (const auto& text : go.search_moves) {
         if (const auto move = session_->move_from_text(text))
-            limits.only.push_back(*move);
+            allowed_.push_back(*move);
         else
             out_.line(fmt::format("info string searchmoves: {} is not legal here", text));
     }
+    limits.only = allowed_;
     limits.report_every = look_interval;
     reported_depth_ = 0;
     reported_at_ = search::Milliseconds(0);
@@ -273,12 +275,9 @@ void Uci::search(const GoCommand& go) {
     if (mate_known_) session_->interrupt();
 }
 
-search::MateLimits Uci::mate_limits(const GoCommand& go) const {
+search::MateLimits Uci::mate_limits(const GoCommand& go) {
     search::MateLimits limits;
     limits.nodes = go.nodes;
-    const auto budget = static_cast<std::size_t>(session_->params().memory_mib) << 20;
-    constexpr std::size_t share = 16;
-    limits.table_bytes = std::min(limits.table_bytes, budget / share);
     return limits;
 }
 
@@ -291,6 +290,10 @@ void Uci::start_mate_think(const GoCommand& go) {
     const bool bounded = go.nodes || go.move_time || go.depth || go.has_clock();
     mate_think_.start(*session_, limits, [this, waits, bounded](const search::MateResult& result) {
         using Answer = search::MateResult::Answer;
+        // A mate by a move that is not asked for is none.
+        if (result.answer == Answer::mate && !allowed_.empty() &&
+            std::find(allowed_.begin(), allowed_.end(), result.line[0]) == allowed_.end())
+            return;
         mate_ = result;
         if (waits || result.answer == Answer::unknown) return;
         if (result.answer == Answer::no_mate && bounded) return;
@@ -415,6 +418,7 @@ std::string Uci::wdl(const search::Analysis& picture, float value) const {
 
 std::string Uci::best_move(const search::Analysis& picture) const {
     const auto legal = session_->legal_moves();
+    if (session_->can_declare_win()) return "bestmove win";
     if (legal.empty()) return fmt::format("bestmove {}", dialect_.no_move);
     if (picture.moves.empty()) return fmt::format("bestmove {}", session_->move_to_text(legal[0]));
     const auto& best = picture.moves[0];

@@ -92,7 +92,7 @@ class Uci {
     std::string info(const search::Analysis& picture, std::size_t rank) const;
     std::string wdl(const search::Analysis& picture, float value) const;
     std::string best_move(const search::Analysis& picture) const;
-    search::MateLimits mate_limits(const GoCommand& go) const;
+    static search::MateLimits mate_limits(const GoCommand& go);
     void change(const std::function<void(search::SearchParams&)>& edit);
 
     const Dialect dialect_;
@@ -113,6 +113,7 @@ class Uci {
 
     // The present think.
     GoCommand last_go_;
+    std::vector<engine::Move> allowed_;  // as searchmoves
     int reported_depth_ = 0;
     search::Milliseconds reported_at_{0};
     std::atomic<bool> silenced_ = false;      // its bestmove is not wanted

@@ -31,6 +31,10 @@ struct MateLimits {
     std::size_t table_bytes = std::size_t{64} << 20;
 };
 
+// The part of a memory budget that is left to a mate search beside a tree search: a sixteenth, as
+// long as that is useful.
+constexpr int mate_mebibytes(int memory_mib) { return std::min(memory_mib / 16, 64); }
+
 struct MateResult {
     enum class Answer : std::uint8_t { mate, no_mate, unknown };
     Answer answer = Answer::unknown;

@@ -1,58 +1,26 @@
 // UCI over chess and USI over shogi, asked what tournament managers and GUIs ask.
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdio>
-#include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "engine/chess/chess.h"
 #include "engine/chess/rollouts.h"
 #include "engine/shogi/rollouts.h"
 #include "engine/shogi/shogi.h"
-#include "protocols/uci.h"
-#include "tests/temporary_folder.h"
+#include "tests/protocols/uci_guest.h"
 
 namespace protocols {
 
 namespace {
 
-template <class G>
-struct Guest {
-    explicit Guest(const Dialect& dialect)
-        : uci(dialect, std::make_unique<GameSession<G>>(params()), "sanban", output) {}
+using testing::has;
+using testing::last_line;
+using testing::lines_of;
 
-    static search::SearchParams params() {
-        search::SearchParams params;
-        params.memory_mib = 16;
-        return params;
-    }
-    std::string say(const std::string& lines) {
-        text.str("");
-        std::istringstream in(lines);
-        uci.serve(in);
-        return text.str();
-    }
-
-    std::ostringstream text;
-    Output output{text};
-    Uci uci;
+struct Chess : testing::UciGuest<chess::Chess> {};
+struct Shogi : testing::UciGuest<shogi::Shogi> {
+    Shogi() : UciGuest(usi_dialect) {}
 };
-
-struct Chess : Guest<chess::Chess> {
-    Chess() : Guest(uci_dialect) {}
-};
-struct Shogi : Guest<shogi::Shogi> {
-    Shogi() : Guest(usi_dialect) {}
-};
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
 
 // Info lines with whole numbers behind time, nps and score, then one bestmove, then nothing.
 void expect_a_think(const std::string& text) {
@@ -71,15 +39,6 @@ void expect_a_think(const std::string& text) {
         }
         EXPECT_EQ(numbers, 3) << lines[i];
     }
-}
-
-std::string output_of(const std::string& arguments) {
-    const auto command = std::string(SANBAN_EXECUTABLE) + " " + arguments;
-    std::string text;
-    auto* pipe = ::popen(command.c_str(), "r");
-    for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-    ::pclose(pipe);
-    return text;
 }
 
 }  // namespace
@@ -112,7 +71,10 @@ TEST(UciGames, MatesOfUciAreMoves) {
     EXPECT_NE(found.find("\nbestmove g5f7 ponder h8g8\n"), found.npos) << found;
     const auto none = guest.say("position startpos\ngo mate 1\n");
     EXPECT_NE(none.find("info string found no such mate\n"), none.npos);
-    EXPECT_TRUE(lines_of(none).back().starts_with("bestmove ")) << none;
+    EXPECT_TRUE(last_line(none).starts_with("bestmove ")) << none;
+    const auto other = guest.say(
+        "position fen 6k1/5ppp/8/8/8/8/8/R3K3 w - - 0 1\ngo mate 1 nodes 200 searchmoves e1e2\n");
+    EXPECT_TRUE(last_line(other).starts_with("bestmove e1e2")) << other;
 }
 
 TEST(UciGames, MatesOfUsiAreSolutions) {
@@ -136,7 +98,7 @@ TEST(UciGames, AStopEndsAMateSearch) {
 
 TEST(UciGames, WdlIsShownWhenAskedFor) {
     Chess guest;
-    EXPECT_EQ(guest.say("go nodes 50\n").find(" wdl "), std::string::npos);
+    EXPECT_FALSE(has(guest.say("go nodes 50\n"), " wdl "));
     const auto text = guest.say("setoption name UCI_ShowWDL value true\ngo nodes 50\n");
     const auto at = text.find(" wdl ");
     ASSERT_NE(at, text.npos) << text;
@@ -155,29 +117,79 @@ TEST(UciGames, AWinIsDeclared) {
     EXPECT_EQ(text, "bestmove win\n");
 }
 
-TEST(UciGames, SolvesProblemsOfFiles) {
-    const tests::TemporaryFolder folder;
-    const auto chess = (folder.path() / "mates.epd").string();
-    std::ofstream(chess) << "6k1/5ppp/8/8/8/8/8/R3K3 w - - dm 1; id \"back rank\";\n"
-                            "# a comment\n"
-                            "7k/8/8/8/8/8/8/K7 w - - dm 1; id \"kings\";\n"
-                            "6k1/5ppp/8/8/8/8/8/R3K3 w - - bm Ra8; am Ra7;\n";
-    EXPECT_EQ(output_of("solve --simulations 2000 --memory 16 " + chess),
-              "passed back rank: a1a8\nfailed kings: no mate, not a mate\npassed 4: a1a8\n"
-              "2 passed, 1 failed\n");
-    const auto shogi = (folder.path() / "mates.sfen").string();
-    std::ofstream(shogi) << "sfen 4k4/9/4P4/9/9/9/9/9/9 b G2r2b3g4s4n4l17p 1\n"
-                            "4k4/9/4P4/9/9/9/9/9/9 b G2r2b3g4s4n4l17p bm G*5b; id \"gold\";\n";
-    EXPECT_EQ(output_of("solve --simulations 2000 --memory 16 " + shogi),
-              "passed 1: G*5b\npassed gold: G*5b\n2 passed, 0 failed\n");
+// What GUIs of shogi send early: the times come with the ponderhit.
+TEST(UciGames, PonderingOfShogiMayEndInADeclaration) {
+    Shogi guest;
+    guest.uci.handle("position sfen KRRBB4/GGGG5/SSSS5/9/9/9/9/9/4k4 b 18P4N4L 1");
+    guest.uci.handle("go ponder btime 1000 wtime 1000 byoyomi 50");
+    EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+    guest.uci.handle("ponderhit");
+    std::istringstream end;
+    guest.uci.serve(end);
+    EXPECT_EQ(last_line(guest.text.str()), "bestmove win");
 }
 
-TEST(UciGames, TheGreetingIsPrompt) {
-    const auto begin = std::chrono::steady_clock::now();
-    const auto answer = output_of("uci --threads 1 </dev/null");
-    // The greeting is 50 ms at most on an idle machine; here others run beside it.
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
-    EXPECT_EQ(answer, "");
+TEST(UciGames, PonderingInAFinishedGameAnswersWhenStopped) {
+    Chess guest;
+    for (const std::string go : {"go ponder wtime 100 btime 100", "go infinite"}) {
+        guest.text.str("");
+        guest.uci.handle("position startpos moves f2f3 e7e5 g2g4 d8h4");
+        guest.uci.handle(go);
+        EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+        guest.uci.handle("stop");
+        EXPECT_EQ(last_line(guest.text.str()), "bestmove (none)") << go;
+    }
+}
+
+// `isready` is answered while the search goes on, and changes nothing.
+TEST(UciGames, IsReadyDoesNotEndAThink) {
+    Chess guest;
+    guest.uci.handle("go infinite");
+    guest.uci.handle("isready");
+    EXPECT_TRUE(has(guest.text.str(), "readyok\n"));
+    EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+    guest.uci.handle("stop");
+    EXPECT_TRUE(last_line(guest.text.str()).starts_with("bestmove "));
+}
+
+struct Refusal {
+    std::string position, reason;
+};
+
+// The reason, in one line, and the position from before stays.
+template <class Guest>
+void expect_refused(const std::string& word, const std::vector<Refusal>& refusals) {
+    Guest guest;
+    const auto before = last_line(guest.say("position startpos\ngo nodes 1\n"));
+    for (const auto& [position, reason] : refusals) {
+        const auto answer = guest.say("position " + word + " " + position + "\n");
+        EXPECT_TRUE(answer.starts_with("info string error: ")) << answer;
+        EXPECT_EQ(lines_of(answer).size(), 1u) << answer;
+        EXPECT_TRUE(has(answer, reason)) << answer;
+        EXPECT_LT(answer.size(), 400u) << answer.substr(0, 400);
+        EXPECT_EQ(last_line(guest.say("ucinewgame\nusinewgame\ngo nodes 1\n")), before);
+    }
+}
+
+TEST(UciGames, IllegalFensAreRefusedWithTheReason) {
+    expect_refused<Chess>("fen", {{"4k3/8/8/8/8/8/8/3KK3 w - - 0 1", "king"},
+                                  {"P3k3/8/8/8/8/8/8/4K3 w - - 0 1", "pawn"},
+                                  {"4k3/8/8/8/8/8/8/4KR1p w - - 0 1", "pawn"},
+                                  {"4k3/8/8/8/8/8/8/4RK2 w - - 0 1", "check"},
+                                  {"8/8/8/8/8/8/8/4K3 w - - 0 1", "king"},
+                                  {"4k3/8/8/8/8/8/8/4K3/8 w - - 0 1", ""},
+                                  {std::string(5000, '8') + " w - - 0 1", ""},
+                                  {"4k3/8/8/8/8/8/8/4K3 x - - 0 1", ""}});
+}
+
+TEST(UciGames, IllegalSfensAreRefusedWithTheReason) {
+    expect_refused<Shogi>("sfen", {{"4k4/9/9/9/9/9/9/9/3KK4 b - 1", "king"},
+                                   {"P3k4/9/9/9/9/9/9/9/4K4 b - 1", "pawn"},
+                                   {"4k4/9/9/9/9/9/9/9/4R1K2 b - 1", "check"},
+                                   {"4k4/9/9/9/4P4/4P4/9/9/4K4 b - 1", "pawn"},
+                                   {"4k4/9/9/9/9/9/9/9/4K4 b 19p 1", ""},
+                                   {std::string(5000, '9') + " b - 1", ""},
+                                   {"4k4/9/9/9/9/9/9/9/4K4 x - 1", ""}});
 }
 
 }  // namespace protocols

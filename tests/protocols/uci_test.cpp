@@ -6,46 +6,15 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/protocols/uci_guest.h"
 #include "tests/search/tictactoe.h"
 
 namespace protocols {
 
-namespace {
+using testing::has;
+using testing::last_line;
 
-search::SearchParams small() {
-    search::SearchParams params;
-    params.memory_mib = 16;
-    return params;
-}
-
-struct Guest {
-    explicit Guest(const Dialect& dialect = uci_dialect)
-        : uci(dialect, std::make_unique<GameSession<tictactoe::TicTacToe>>(small()), "sanban",
-              output) {}
-
-    // What the lines are answered with.
-    std::string say(const std::string& lines) {
-        text.str("");
-        std::istringstream in(lines);
-        uci.serve(in);
-        return text.str();
-    }
-
-    std::ostringstream text;
-    Output output{text};
-    Uci uci;
-};
-
-bool has(const std::string& text, std::string_view part) { return text.find(part) != text.npos; }
-
-// The last line, which a bestmove must be.
-std::string last_line(const std::string& text) {
-    const auto end = text.find_last_not_of('\n');
-    const auto start = text.rfind('\n', end);
-    return text.substr(start == text.npos ? 0 : start + 1, end - start);
-}
-
-}  // namespace
+using Guest = testing::UciGuest<tictactoe::TicTacToe>;
 
 TEST(Uci, SaysWhoItIsAndWhatCanBeSet) {
     Guest guest;
