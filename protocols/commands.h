@@ -22,6 +22,7 @@ int run_match(Arguments arguments);
 int run_perft(Arguments arguments);
 int run_show(Arguments arguments);
 int run_solve(Arguments arguments);
+int run_train(Arguments arguments);
 int run_uci(Arguments arguments);
 int run_usi(Arguments arguments);
 

@@ -1,12 +1,10 @@
 #include "protocols/match_command.h"
 
 #include <fmt/format.h>
-#include <pthread.h>
 
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <thread>
@@ -14,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "protocols/commands.h"
+#include "protocols/stop_on_signal.h"
 #include "selfplay/make_player.h"
 #include "selfplay/process.h"
 #include "selfplay/time_text.h"
@@ -25,37 +24,6 @@ namespace {
 using selfplay::MatchSettings;
 using selfplay::Milliseconds;
 using selfplay::Standing;
-
-// Turns SIGINT and SIGTERM into a stop request, on a thread of its own, from construction to
-// destruction. Threads started meanwhile inherit the blocked signals.
-class StopOnSignal {
-   public:
-    StopOnSignal() {
-        ::sigemptyset(&signals_);
-        ::sigaddset(&signals_, SIGINT);
-        ::sigaddset(&signals_, SIGTERM);
-        ::pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-        thread_ = std::jthread([this](const std::stop_token& over) { watch(over); });
-    }
-    StopOnSignal(const StopOnSignal&) = delete;
-    StopOnSignal& operator=(const StopOnSignal&) = delete;
-    ~StopOnSignal() {
-        thread_ = {};
-        ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-    }
-    std::stop_token token() const { return stop_.get_token(); }
-
-   private:
-    void watch(const std::stop_token& over) {
-        constexpr timespec step{0, 50'000'000};
-        while (!over.stop_requested())
-            if (::sigtimedwait(&signals_, nullptr, &step) > 0) stop_.request_stop();
-    }
-
-    sigset_t signals_{}, before_{};
-    std::stop_source stop_;
-    std::jthread thread_;
-};
 
 // What CLI11 fills in, before it is checked and turned into MatchSettings. Lists of engines' own
 // values hold one entry for both or one for each.

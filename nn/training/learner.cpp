@@ -67,43 +67,43 @@ Learner::~Learner() {
 }
 
 Report Learner::step(const Samples& samples) {
-    auto report = pass(samples, true);
-    auto& gradients = replicas_[0]->gradients;
-    for (std::size_t r = 1; r < replicas_.size(); ++r)
-        for (std::size_t i = 0; i < gradients.size(); ++i)
-            gradients[i] += replicas_[r]->gradients[i];
+    auto report = pass(samples, weights_, Purpose::learn);
+    sum_gradients();
+    const auto& gradients = replicas_[0]->gradients;
     report.gradient_norm = norm_of(gradients, parameters_);
     find_fault(report, gradients);
     if (report.fault.empty()) apply(gradients, samples.size);
     return report;
 }
 
-Report Learner::evaluate(const Samples& samples) { return pass(samples, false); }
+Report Learner::evaluate(const Samples& samples) { return pass(samples, weights_, Purpose::judge); }
 
-Report Learner::pass(const Samples& samples, bool learn) {
+Report Learner::pass(const Samples& samples, std::span<const float> weights, Purpose purpose) {
     assert(samples.targets.size() == settings_.terms.size());
     infer_shapes(graph_, samples.board);
-    workers_.run([&](int i) { run_share(*replicas_[at(i)], samples, i, learn); });
+    loaded_ = weights;
+    workers_.run([&](int i) { run_share(*replicas_[at(i)], samples, i, purpose); });
     return summary(samples);
 }
 
-void Learner::run_share(Replica& replica, const Samples& samples, int share, bool learn) {
+void Learner::run_share(Replica& replica, const Samples& samples, int share, Purpose purpose) {
     const int first = samples.size * share / settings_.threads;
     const int end = samples.size * (share + 1) / settings_.threads;
     replica.costs.assign(settings_.terms.size(), {});
     replica.gradients.assign(parameters_.size(), 0.0f);
-    replica.trainer->load(weights_);
+    replica.trainer->load(loaded_);
     // Parts as even as can be: a batch norm of few samples learns little.
     const int parts = (end - first + settings_.micro_batch - 1) / settings_.micro_batch;
     for (int part = 0; part < parts; ++part) {
         const int from = first + (end - first) * part / parts;
         const int to = first + (end - first) * (part + 1) / parts;
-        run_part(replica, samples, from, to - from, learn);
+        run_part(replica, samples, from, to - from, purpose);
     }
-    if (learn) replica.trainer->collect(replica.gradients);
+    if (purpose != Purpose::judge) replica.trainer->collect(replica.gradients);
 }
 
-void Learner::run_part(Replica& replica, const Samples& samples, int first, int count, bool learn) {
+void Learner::run_part(Replica& replica, const Samples& samples, int first, int count,
+                       Purpose purpose) {
     std::vector<std::span<const float>> inputs, output_gradients(graph_.outputs.size());
     for (const auto& input : samples.inputs) {
         const auto width = input.size() / at(samples.size);
@@ -119,8 +119,9 @@ void Learner::run_part(Replica& replica, const Samples& samples, int first, int 
         replica.output_gradients[o].resize(width * at(count));
         outputs.emplace_back(replica.outputs[o]);
     }
-    replica.trainer->forward({count, samples.board, inputs, outputs},
-                             learn ? Statistics::of_batch : Statistics::running);
+    replica.trainer->forward({count, samples.board, inputs, outputs}, purpose == Purpose::judge
+                                                                          ? Statistics::running
+                                                                          : Statistics::of_batch);
     for (std::size_t t = 0; t < settings_.terms.size(); ++t) {
         const auto o = at(term_outputs_[t]);
         const float factor = settings_.terms[t].weight / static_cast<float>(samples.size);
@@ -128,7 +129,7 @@ void Learner::run_part(Replica& replica, const Samples& samples, int first, int 
                                     {count, first, factor}, replica.output_gradients[o]);
         output_gradients[o] = replica.output_gradients[o];
     }
-    if (learn) replica.trainer->backward(output_gradients);
+    if (purpose == Purpose::learn) replica.trainer->backward(output_gradients);
 }
 
 Report Learner::summary(const Samples& samples) const {
@@ -139,6 +140,12 @@ Report Learner::summary(const Samples& samples) const {
     for (std::size_t t = 0; t < report.costs.size(); ++t)
         report.loss += settings_.terms[t].weight * report.costs[t].loss / samples.size;
     return report;
+}
+
+void Learner::sum_gradients() {
+    auto& sum = replicas_[0]->gradients;
+    for (std::size_t r = 1; r < replicas_.size(); ++r)
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += replicas_[r]->gradients[i];
 }
 
 void Learner::find_fault(Report& report, std::span<const float> gradients) const {
@@ -159,23 +166,39 @@ void Learner::find_fault(Report& report, std::span<const float> gradients) const
 
 void Learner::apply(std::span<const float> gradients, int samples) {
     optimiser_.step(graph_.facts.steps, gradients, weights_);
-    const float kept = settings_.norm_average, count = static_cast<float>(samples);
+    observe(gradients, samples, settings_.norm_average, weights_);
+    const float old = settings_.average;
+    for (std::size_t i = 0; i < average_.size(); ++i)
+        average_[i] = old * average_[i] + (1 - old) * weights_[i];
+    ++graph_.facts.steps;
+}
+
+// `sums` hold what trainers collect in the places of statistics.
+void Learner::observe(std::span<const float> sums, int samples, float kept,
+                      std::span<float> weights) {
+    const auto count = static_cast<float>(samples);
     for (const auto& slot : parameters_.slots()) {
         if (slot.role != Role::statistic) continue;
         const bool variance = slot.weight == 1;
         for (std::size_t i = 0; i < slot.size; ++i) {
             const auto place = slot.offset + i;
-            float seen = gradients[place] / count;
+            float seen = sums[place] / count;
             // The slot of the mean comes just before that of the variance.
-            const float mean = variance ? gradients[place - slot.size] / count : 0;
+            const float mean = variance ? sums[place - slot.size] / count : 0;
             if (variance) seen = std::max(seen - mean * mean, 0.0f);
-            weights_[place] = kept * weights_[place] + (1 - kept) * seen;
+            weights[place] = kept * weights[place] + (1 - kept) * seen;
         }
     }
-    const float old = settings_.average;
-    for (std::size_t i = 0; i < average_.size(); ++i)
-        average_[i] = old * average_[i] + (1 - old) * weights_[i];
-    ++graph_.facts.steps;
+}
+
+Graph Learner::averaged_on(const Samples& samples) {
+    pass(samples, average_, Purpose::observe);
+    sum_gradients();
+    auto weights = average_;
+    observe(replicas_[0]->gradients, samples.size, 0, weights);
+    Graph graph = graph_;
+    parameters_.write(weights, graph);
+    return graph;
 }
 
 Graph Learner::newest() const {

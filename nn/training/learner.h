@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ class Learner {
     // The network as it stands, or with averaged weights, to play with.
     Graph newest() const;
     Graph averaged() const;
+    // The averaged weights with the statistics of their batch norms measured on these samples: an
+    // average of statistics belongs to no network (Izmailov et al. 2018).
+    Graph averaged_on(const Samples& samples);
 
     std::int64_t steps() const { return graph_.facts.steps; }
     const std::vector<Term>& terms() const { return settings_.terms; }
@@ -71,9 +75,13 @@ class Learner {
    private:
     struct Replica;
 
-    Report pass(const Samples& samples, bool learn);
-    void run_share(Replica& replica, const Samples& samples, int share, bool learn);
-    void run_part(Replica& replica, const Samples& samples, int first, int count, bool learn);
+    enum class Purpose : std::uint8_t { learn, judge, observe };  // observe: batch norms
+
+    Report pass(const Samples& samples, std::span<const float> weights, Purpose purpose);
+    void run_share(Replica& replica, const Samples& samples, int share, Purpose purpose);
+    void run_part(Replica& replica, const Samples& samples, int first, int count, Purpose purpose);
+    void sum_gradients();
+    void observe(std::span<const float> sums, int samples, float kept, std::span<float> weights);
     Report summary(const Samples& samples) const;
     void find_fault(Report& report, std::span<const float> gradients) const;
     void apply(std::span<const float> gradients, int samples);
@@ -84,6 +92,7 @@ class Learner {
     Optimiser optimiser_;
     std::vector<int> term_outputs_;  // per term, the place in Graph::outputs
     std::vector<float> weights_, average_;
+    std::span<const float> loaded_;  // the weights that a pass runs with
     std::vector<std::unique_ptr<Replica>> replicas_;
     Workers workers_;
 };

@@ -1,0 +1,97 @@
+// The recipes that a run may start from.
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/games.h"
+#include "selfplay/training/settings.h"
+
+namespace selfplay::training {
+
+namespace {
+
+// What both papers have in common: 800 simulations by PUCT with noise, every turn a lesson, no
+// target but policy and value, the plain average of nothing.
+void take_papers(Settings& settings) {
+    settings.network = {.blocks = 19,
+                        .channels = 256,
+                        .heads = HeadKind::flat,
+                        .value_width = 256,
+                        .wdl = false,
+                        .ownership = false,
+                        .score = false};
+    auto& actors = settings.actors;
+    actors.exploration = Exploration::noise;
+    actors.noise_share = 0.25f;
+    actors.simulations = actors.fast_simulations = 800;
+    actors.full_share = 1;
+    actors.temperature = 1;
+    actors.late_temperature = 0;
+    actors.temperature_moves = 30;
+    actors.opening_share = 0;
+    settings.replay = {.window = 500'000, .window_factor = 0};
+    auto& learn = settings.learn;
+    learn.momentum = 0.9f;
+    learn.weight_decay = 1e-4f;
+    learn.average = 0;
+    learn.warm_up = 0;
+    settings.run.refresh = 1000;
+    settings.run.learner_share = 0.4f;
+}
+
+// Silver et al. 2017.
+void take_alphagozero(Settings& settings) {
+    take_papers(settings);
+    if (settings.actors.size == 19) settings.actors.noise_alpha = 0.03f;
+    settings.learn.batch = 2048;
+    settings.learn.rate = 0.01f;
+    settings.learn.first_drop = 400'000;
+    settings.learn.second_drop = 600'000;
+    settings.run.ratio = 1.5f;
+    settings.run.gate = true;
+    settings.run.gate_games = 400;
+    settings.run.gate_score = 0.55f;
+    settings.run.gate_simulations = 800;
+}
+
+// Silver et al. 2018.
+void take_alphazero(Settings& settings) {
+    take_papers(settings);
+    auto& actors = settings.actors;
+    if (settings.game == "chess") actors.noise_alpha = 0.3f;
+    if (settings.game == "shogi") actors.noise_alpha = 0.15f;
+    if (settings.game == "go" && actors.size == 19) actors.noise_alpha = 0.03f;
+    actors.symmetries = settings.replay.symmetries = false;
+    settings.learn.batch = 4096;
+    settings.learn.rate = 0.2f;
+    settings.learn.first_drop = 100'000;
+    settings.learn.second_drop = 300'000;
+    settings.learn.third_drop = 500'000;
+    settings.run.ratio = 0.7f;
+}
+
+// Small boards are won by the first player; komi is what makes their games even.
+float usual_komi(int size) {
+    if (size == 5) return 24;
+    return size == 7 ? 9 : 7.5f;
+}
+
+}  // namespace
+
+Settings preset_settings(std::string_view preset, std::string_view game, int size) {
+    Settings settings;
+    settings.game = game;
+    settings.preset = preset;
+    engine::Games::visit(game, []<class G>() { return true; });
+    settings.actors.size = size;
+    settings.actors.komi = usual_komi(size);
+    if (game != "go") settings.network.ownership = settings.network.score = false;
+    if (preset == "alphagozero") return take_alphagozero(settings), settings;
+    if (preset == "alphazero") return take_alphazero(settings), settings;
+    if (preset != "laptop")
+        engine::fail("preset must be one of {}, not {}", fmt::join(preset_names, ", "), preset);
+    return settings;
+}
+
+}  // namespace selfplay::training

@@ -1,0 +1,307 @@
+// A run from random weights (or from where it was stopped) on: actors play, their games are
+// recorded and sampled, the student learns, its weights go to the actors. Self-play and learning
+// take turns on all cores, which keeps the learner's share of them exact. All that a run knows is
+// in its folder; whatever ends it costs at most the games in flight. One owner, one thread; run()
+// blocks.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/files.h"
+#include "nn/load.h"
+#include "search/network_evaluator.h"
+#include "selfplay/records/segment.h"
+#include "selfplay/training/crew.h"
+#include "selfplay/training/journal.h"
+#include "selfplay/training/progress.h"
+#include "selfplay/training/replay.h"
+#include "selfplay/training/settings.h"
+#include "selfplay/training/student.h"
+
+namespace selfplay::training {
+
+template <engine::Encoded G>
+class Run {
+   public:
+    // Makes the folder or goes on from it. Fails with engine::Error when it is not a run of these
+    // settings, or is in use.
+    Run(const std::filesystem::path& folder, const Settings& settings, int threads,
+        const Bounds& bounds, Say say);
+
+    // Until a bound is reached or a stop is requested. Fails with engine::Error when the disk takes
+    // no more or learning cannot go on; what was played before is safe.
+    void run(const std::stop_token& stop);
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    using Source = typename Crew<G>::Source;
+
+    std::string_view encoding() const {
+        return encoding_names[static_cast<std::size_t>(settings_.network.encoding)];
+    }
+    G first_game() const;
+    nn::Graph fresh_network() const;
+    void fill_replay();
+
+    Source published_network();
+    Source playing(const nn::Graph& graph) const {
+        return std::make_shared<search::NetworkSource<G>>(
+            std::make_shared<const search::Network>(graph, nn::Precision::fp32));
+    }
+
+    void play(const std::stop_token& stop);
+    void record(std::vector<records::Game> games);
+    void learn(const std::stop_token& stop);
+    void publish();
+    Quality held_out_quality();
+    void grow_simulations();
+
+    static double since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    bool over(const std::stop_token& stop) const;
+    Standing standing() const;
+    int steps_at_once() const { return std::max(1, 2048 / settings_.learn.batch); }
+    double samples_due() const {
+        return double{settings_.run.ratio} * static_cast<double>(new_positions_) -
+               static_cast<double>(samples_) - forgiven_;
+    }
+
+    RunFolder folder_;
+    Settings settings_;
+    Bounds bounds_;
+    Say say_;
+    records::Archive archive_;
+    Journal journal_;
+    Replay<G> replay_;
+    Student student_;
+    engine::Random random_;
+    Progress progress_;
+    int threads_;
+    std::unique_ptr<Crew<G>> crew_;
+
+    Clock::time_point started_ = Clock::now();
+    RunState state_;  // seconds: of earlier calls
+    // Of this call.
+    std::uint64_t new_positions_ = 0, samples_ = 0;
+    double forgiven_ = 0;  // samples
+    double learn_seconds_ = 0;
+    double owed_play_ = 0;        // seconds that the actors are to have before the learner is next
+    std::int64_t published_ = 0;  // step
+};
+
+template <engine::Encoded G>
+Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int threads,
+            const Bounds& bounds, Say say)
+    : folder_(folder),
+      settings_(settings),
+      bounds_(bounds),
+      say_(std::move(say)),
+      archive_(folder_.games()),
+      journal_(folder_.metrics()),
+      replay_(settings.replay, encoding(), threads),
+      student_(fresh_network(), settings.learn, threads, folder_, say_),
+      random_(engine::mixed(static_cast<std::uint64_t>(settings.run.seed),
+                            static_cast<std::uint64_t>(student_.steps()))),
+      progress_(bounds),
+      threads_(threads),
+      state_(folder_.state()),
+      published_(student_.steps()) {
+    keep_settings(folder, settings);
+    if (!archive_.damage().empty()) say_(archive_.damage());
+    fill_replay();
+}
+
+template <engine::Encoded G>
+G Run<G>::first_game() const {
+    engine::Random random(0);
+    auto actors = settings_.actors;
+    actors.small_share = 0;
+    return first_position<G>(actors, random);
+}
+
+template <engine::Encoded G>
+nn::Graph Run<G>::fresh_network() const {
+    engine::Random random(static_cast<std::uint64_t>(settings_.run.seed));
+    const auto shape = engine::find_encoding<G>(encoding()).shape(first_game());
+    return new_network(settings_.network, G::name, shape, random);
+}
+
+// From the newest segment back until the window is full; then the games in their order.
+template <engine::Encoded G>
+void Run<G>::fill_replay() {
+    const auto paths = archive_.segments();
+    std::deque<std::vector<records::Game>> parts;
+    std::uint64_t games = 0;
+    for (std::size_t i = paths.size(); i-- > 0;) {
+        if (games > window_of(settings_.replay, std::max(state_.games, games))) break;
+        auto segment = records::unpack(engine::read_file(paths[i]));
+        if (!segment.damage.empty())
+            say_(fmt::format("{}: {}; left out", paths[i].string(), segment.damage));
+        games += segment.games.size();
+        parts.push_front(std::move(segment.games));
+    }
+    state_.games = std::max(state_.games, games);
+    GameTally tally;
+    std::size_t refused = 0;
+    for (auto& part : parts)
+        for (auto& game : part) {
+            tally.add(game);
+            if (!replay_.add(std::move(game), state_.games)) ++refused;
+        }
+    state_.positions = std::max(state_.positions, tally.taught);
+    if (games > 0)
+        say_(fmt::format("{} games so far, {} to learn from; {} steps", state_.games,
+                         replay_.games(), student_.steps()));
+    if (refused > 0) say_(fmt::format("{} games of the archive teach nothing", refused));
+}
+
+template <engine::Encoded G>
+bool Run<G>::over(const std::stop_token& stop) const {
+    return stop.stop_requested() || (bounds_.minutes && since(started_) >= *bounds_.minutes * 60) ||
+           (bounds_.games && state_.games >= *bounds_.games);
+}
+
+template <engine::Encoded G>
+Standing Run<G>::standing() const {
+    auto state = state_;
+    state.seconds += since(started_);
+    return {state,           crew_->counts().evaluations, samples_, new_positions_, learn_seconds_,
+            student_.steps()};
+}
+
+template <engine::Encoded G>
+void Run<G>::run(const std::stop_token& stop) {
+    crew_ = std::make_unique<Crew<G>>(settings_.actors, threads_, random_(), published_network(),
+                                      static_cast<std::uint64_t>(student_.steps()));
+    grow_simulations();
+    progress_.begin(standing());
+    while (!over(stop)) {
+        play(stop);
+        if (!over(stop)) learn(stop);
+    }
+    if (student_.steps() > published_) publish();
+    folder_.keep(standing().state);
+}
+
+// Until enough positions are new and the actors have had their share of the time.
+template <engine::Encoded G>
+void Run<G>::play(const std::stop_token& stop) {
+    const auto begun = Clock::now();
+    const double wanted = double{1} * steps_at_once() * settings_.learn.batch;
+    const auto enough = [&] {
+        return since(begun) >= owed_play_ && samples_due() >= wanted &&
+               state_.games >= static_cast<std::uint64_t>(settings_.run.first_games) &&
+               replay_.lessons().positions() > 0;
+    };
+    crew_->run();
+    while (!over(stop) && !enough()) {
+        record(crew_->take(std::chrono::milliseconds(100)));
+        if (const auto line = progress_.due(standing())) say_(*line);
+    }
+    crew_->pause();
+    record(crew_->take(std::chrono::milliseconds(0)));
+}
+
+template <engine::Encoded G>
+void Run<G>::record(std::vector<records::Game> games) {
+    if (games.empty()) return;
+    archive_.append(games);
+    archive_.keep(static_cast<std::uint64_t>(settings_.run.keep_mib) << 20);
+    for (auto& game : games) {
+        GameTally tally;
+        tally.add(game);
+        progress_.add(game);
+        ++state_.games;
+        state_.positions += tally.taught;
+        new_positions_ += tally.taught;
+        replay_.add(std::move(game), state_.games);
+    }
+    folder_.keep(standing().state);
+}
+
+template <engine::Encoded G>
+void Run<G>::learn(const std::stop_token& stop) {
+    const auto begun = Clock::now();
+    for (int i = 0; i < steps_at_once() && !stop.stop_requested(); ++i) {
+        student_.learn(replay_.draw(settings_.learn.batch, student_.terms(), random_));
+        samples_ += static_cast<std::uint64_t>(settings_.learn.batch);
+    }
+    // What the learner had no time for is forgiven, so that the debt does not grow without end.
+    const double most = 4.0 * steps_at_once() * settings_.learn.batch;
+    forgiven_ += std::max(0.0, samples_due() - most);
+    if (student_.steps() >= published_ + settings_.run.refresh) publish();
+    const double seconds = since(begun), share = double{settings_.run.learner_share};
+    learn_seconds_ += seconds;
+    owed_play_ = seconds * (1 - share) / share;
+}
+
+// The network that self-play uses, from its file or, where there is none, from the student.
+template <engine::Encoded G>
+typename Run<G>::Source Run<G>::published_network() {
+    if (std::filesystem::exists(folder_.latest())) try {
+            return playing(nn::load(folder_.latest()));
+        } catch (const engine::Error& error) {
+            say_(fmt::format("{}; written anew", error.what()));
+        }
+    const auto graph = student_.newest();
+    nn::save(graph, folder_.latest());
+    return playing(graph);
+}
+
+template <engine::Encoded G>
+void Run<G>::publish() {
+    constexpr int norm_samples = 1024;
+    student_.save();
+    const auto graph = student_.playable(replay_.draw(norm_samples, student_.terms(), random_));
+    nn::save(graph, folder_.latest());
+    crew_->set_network(playing(graph), static_cast<std::uint64_t>(student_.steps()));
+    published_ = student_.steps();
+    grow_simulations();
+    auto entry = progress_.take_entry(standing());
+    entry.learned = student_.take_quality();
+    entry.held_out = held_out_quality();
+    entry.window = replay_.games();
+    progress_.set_quality(entry.held_out);
+    journal_.append(entry);
+}
+
+template <engine::Encoded G>
+Quality Run<G>::held_out_quality() {
+    constexpr int samples = 1024;
+    if (replay_.held_out().positions() == 0) return {};
+    engine::Random random(1);  // so that two networks are asked about like positions
+    QualityTally tally;
+    const auto& drawn = replay_.draw_held_out(samples, student_.terms(), random);
+    tally.add(student_.judge(drawn), student_.terms(), samples);
+    return tally.mean();
+}
+
+// Along a straight line over the games played.
+template <engine::Encoded G>
+void Run<G>::grow_simulations() {
+    const auto& run = settings_.run;
+    const auto& actors = settings_.actors;
+    if (run.last_simulations == 0) return;
+    const double part =
+        std::min(1.0, static_cast<double>(state_.games) / std::max(run.growth_games, 1));
+    const double factor =
+        1 + part * (static_cast<double>(run.last_simulations) / actors.simulations - 1);
+    const auto grown = [&](int count) {
+        return std::max(1, static_cast<int>(std::lround(count * factor)));
+    };
+    crew_->set_simulations(grown(actors.simulations), grown(actors.fast_simulations));
+}
+
+}  // namespace selfplay::training
