@@ -14,52 +14,9 @@
 #include "engine/base/random.h"
 #include "engine/go/board.h"
 #include "engine/go/go.h"
+#include "engine/go/liberty_sums.h"
 
 namespace go {
-
-// What a chain's liberties add up to. One word holds for the empty sides of all its stones their
-// number, the sum of their points and that of the points' squares; in atari, and only there,
-// number times squares is the sum squared.
-class LibertySum {
-   public:
-    constexpr LibertySum() = default;
-    explicit constexpr LibertySum(int at) : bits_(1 | number(at) << 11 | number(at * at) << 31) {}
-
-    LibertySum& operator+=(LibertySum other) { return bits_ += other.bits_, *this; }
-    LibertySum& operator-=(LibertySum other) { return bits_ -= other.bits_, *this; }
-
-    bool none() const { return bits_ == 0; }
-    bool only_one() const { return bits_ != 0 && count() * (bits_ >> 31) == points() * points(); }
-    int the_one() const { return static_cast<int>(points() / count()); }
-
-   private:
-    static constexpr std::uint64_t number(int n) { return static_cast<std::uint64_t>(n); }
-    std::uint64_t count() const { return bits_ & 0x7ff; }
-    std::uint64_t points() const { return bits_ >> 11 & 0xfffff; }
-
-    std::uint64_t bits_ = 0;
-};
-
-// The same without knowing where.
-class LibertyCount {
-   public:
-    constexpr LibertyCount() = default;
-    explicit constexpr LibertyCount(int count) : count_(word(count)) {}
-
-    LibertyCount& operator+=(LibertyCount other) {
-        return count_ = word(count_ + other.count_), *this;
-    }
-    LibertyCount& operator-=(LibertyCount other) {
-        return count_ = word(count_ - other.count_), *this;
-    }
-
-    bool none() const { return count_ == 0; }
-
-   private:
-    static constexpr std::int16_t word(int n) { return static_cast<std::int16_t>(n); }
-
-    std::int16_t count_ = 0;
-};
 
 template <int most_size, bool tactical = false>
 class RolloutBoard {
@@ -87,6 +44,14 @@ class RolloutBoard {
     static int index(Point point) { return (point.y + 1) * stride + point.x + 1; }
     static constexpr std::array<int, 4> neighbours(int at) {
         return {at - stride, at - 1, at + 1, at + stride};
+    }
+    // visit(neighbour) for each of the four, unrolled, which of a loop over them is not certain.
+    template <class Visit>
+    static void for_neighbours(int at, Visit visit) {
+        visit(at - stride);
+        visit(at - 1);
+        visit(at + 1);
+        visit(at + stride);
     }
     // In the order of RolloutBoard::surroundings.
     static constexpr std::array<int, 8> around(int at) {
@@ -328,10 +293,10 @@ void RolloutBoard<most_size, tactical>::take(int at) {
         const int next = gone.next;
         gone.colour = Colour::empty;
         gone.chain = 0;
-        for (const int beside : neighbours(stone)) {
+        for_neighbours(stone, [&](int beside) {
             cell(beside).sides = word(cell(beside).sides + empty_side - side_of(colour));
             cell(cell(beside).chain).liberties += liberty(stone);
-        }
+        });
         show_around(stone, colour);
         list_empty(stone);
         stone = next;
@@ -351,18 +316,19 @@ void RolloutBoard<most_size, tactical>::play(int at) {
     stone.chain_size = 1;
     stone.liberties = liberties_of_stone(at);
     show_around(at, colour);
-    const auto beside_it = neighbours(at);
-    for (const int beside : beside_it) {
+    for_neighbours(at, [&](int beside) {
         cell(beside).sides = word(cell(beside).sides + side_of(colour) - empty_side);
         // Chain 0 is nobody's: cheaper to count there than to ask whether there is a stone.
         cell(cell(beside).chain).liberties -= liberty(at);
-    }
-    for (const int beside : beside_it)
+    });
+    for_neighbours(at, [&](int beside) {
         if (cell(beside).colour == colour) join(at, cell(beside).chain);
+    });
     const int before = empty_count_;
-    for (const int beside : beside_it)
+    for_neighbours(at, [&](int beside) {
         if (cell(beside).colour == enemy && cell(cell(beside).chain).liberties.none())
             take<enemy>(beside);
+    });
     const bool takes_ko = in_enemy_eye && empty_count_ == before + 1;
     ko_ = takes_ko ? empty_[static_cast<std::size_t>(before)] : 0;
 }
