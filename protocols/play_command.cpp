@@ -12,6 +12,7 @@
 #include "engine/go/rollouts.h"
 #include "engine/go/sgf.h"
 #include "engine/shogi/rollouts.h"
+#include "protocols/board_text.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "protocols/go_judge.h"
@@ -69,9 +70,14 @@ int play_go(const PlayFlags& flags) {
             text += fmt::format(" ({} dead stones)", reading.dead().size());
         return text;
     };
-    view.save = [&](const std::string& path) {
+    view.save = [&](const std::string& path, bool resigned) {
         const bool over = session.now().consecutive_passes() >= 2;
-        save_sgf(session, over ? judge.read(session.now()).score().text() : "", path);
+        const bool white_wins = session.to_play() == engine::Player::first;
+        save_sgf(session,
+                 resigned ? (white_wins ? "W+R" : "B+R")
+                 : over   ? judge.read(session.now()).score().text()
+                          : "",
+                 path);
     };
     view.choose = [&](const search::Analysis& picture) {
         return choose_go_move(session.now(), judge, picture);
@@ -83,50 +89,25 @@ int play_go(const PlayFlags& flags) {
     return 0;
 }
 
-// Ranks of a FEN or SFEN, a line each.
-std::string ranks_of(const std::string& position) {
-    std::string text;
-    for (const char c : position.substr(0, position.find(' '))) {
-        if (c == '/')
-            text += '\n';
-        else if (c >= '1' && c <= '9')
-            for (int i = 0; i < c - '0'; ++i) text += " .";
-        else if (c == '+')
-            text += '+';
-        else
-            text += text.ends_with('+') ? std::string(1, c) : fmt::format(" {}", c);
-    }
-    return text;
+std::string saved(std::span<const chess::Chess> states, const std::string&, bool resigned) {
+    return to_pgn(states, resigned);
+}
+std::string saved(std::span<const shogi::Shogi> states, const std::string& path, bool resigned) {
+    return to_shogi_record(states, resigned, path.ends_with(".kif"));
 }
 
 template <engine::Game G>
 int play_board_game(const PlayFlags& flags, TerminalView view) {
     GameSession<G> session(flags.params);
-    view.board = [&] {
-        const auto text = session.position_text();
-        return fmt::format("{}\n{}", ranks_of(text), text);
-    };
+    view.board = [&] { return diagram(session.now()); };
     view.result = [&]() -> std::string {
         const auto outcome = session.outcome();
         if (outcome == engine::Outcome::draw) return "a draw";
         return fmt::format(
             "{} wins", outcome == engine::Outcome::first_wins ? view.first_name : view.second_name);
     };
-    view.save = [&](const std::string& path) {
-        const auto states = session.states();
-        std::string line = fmt::format("position {} {} moves", G::name == "chess" ? "fen" : "sfen",
-                                       states.front().to_text());
-        for (std::size_t i = 1; i < states.size(); ++i)
-            for (const engine::Move move : states[i - 1].legal_moves()) {
-                G next = states[i - 1];
-                next.play(move);
-                if (next.key() == states[i].key()) {
-                    line.append(" ").append(states[i - 1].move_to_text(move));
-                    break;
-                }
-            }
-        line += '\n';
-        engine::write_file(path, line);
+    view.save = [&](const std::string& path, bool resigned) {
+        engine::write_file(path, saved(session.states(), path, resigned));
     };
     Terminal(flags.terminal, session, view, std::cin, std::cout).run();
     return 0;

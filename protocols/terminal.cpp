@@ -74,7 +74,7 @@ bool Terminal::obey(const std::string& line) {
         hint();
     } else if (word == "save") {
         if (rest.empty()) engine::fail("save needs the name of a file");
-        view_.save(rest);
+        view_.save(rest, resigned_);
         fmt::print(out_, "saved to {}\n", rest);
     } else if (word == "undo") {
         take_back();

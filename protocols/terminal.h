@@ -21,9 +21,11 @@ struct TerminalSettings {
 
 // What a game shows and saves beyond what every session does.
 struct TerminalView {
-    std::function<std::string()> board;                 // as text
-    std::function<std::string()> result;                // of a game that is over
-    std::function<void(const std::string& path)> save;  // fails with engine::Error
+    std::function<std::string()> board;   // as text
+    std::function<std::string()> result;  // of a game that is over
+    // Writes the game to a file; `resigned`: the player to move has given it up. Fails with
+    // engine::Error.
+    std::function<void(const std::string& path, bool resigned)> save;
     // The engine's move when it should not simply be the search's best (a pass in Go).
     std::function<std::string(const search::Analysis&)> choose;
     std::string first_name, second_name, move_example;

@@ -210,6 +210,7 @@ void Uci::set_option(std::string_view arguments) {
 
 void Uci::new_game(std::string_view) {
     end_think();
+    lag_.forget_game();
     session_->new_game();
 }
 
@@ -243,6 +244,7 @@ void Uci::go(std::string_view arguments) {
 
 void Uci::think(const GoCommand& go) {
     last_go_ = go;
+    begun_ = std::chrono::steady_clock::now();
     silenced_ = false;
     mate_.reset();
     mate_known_ = false;
@@ -264,6 +266,10 @@ void Uci::search(const GoCommand& go) {
             out_.line(fmt::format("info string searchmoves: {} is not legal here", text));
     }
     limits.only = allowed_;
+    if (limits.clock) {
+        lag_.shown(*limits.clock);
+        limits.clock = lag_.without_lag(*limits.clock);
+    }
     limits.report_every = look_interval;
     reported_depth_ = 0;
     reported_at_ = search::Milliseconds(0);
@@ -328,6 +334,7 @@ void Uci::ponder_hit(std::string_view arguments) {
     if (!session_->thinking()) return;
     if (arguments.empty()) {
         last_go_.ponder = false;
+        begun_ = std::chrono::steady_clock::now();
         return session_->ponder_hit();
     }
     // The times come only now (ShogiHome's early ponder): think on, in the same tree, under them.
@@ -365,11 +372,15 @@ void Uci::finish(const search::Analysis& picture) {
     if (silenced_) return;
     if (!picture.fault.empty())
         out_.line(fmt::format("info string the search broke off: {}", picture.fault));
-    if (tell_mate(picture)) return;
-    report(picture);
-    if (verbose_)
-        for (const auto& line : verbose_stats(*session_, picture)) out_.line(line);
-    out_.line(best_move(picture));
+    if (!tell_mate(picture)) {
+        report(picture);
+        if (verbose_)
+            for (const auto& line : verbose_stats(*session_, picture)) out_.line(line);
+        out_.line(best_move(picture));
+    }
+    if (!last_go_.ponder)
+        lag_.answered(std::chrono::duration_cast<search::Milliseconds>(
+            std::chrono::steady_clock::now() - begun_));
 }
 
 // Whether the mate search has the answer.

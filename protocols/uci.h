@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <istream>
 #include <memory>
@@ -113,6 +114,8 @@ class Uci {
 
     // The present think.
     GoCommand last_go_;
+    std::chrono::steady_clock::time_point begun_;  // since when its time counts
+    ClockLag lag_;
     std::vector<engine::Move> allowed_;  // as searchmoves
     int reported_depth_ = 0;
     search::Milliseconds reported_at_{0};

@@ -74,6 +74,26 @@ GoCommand parse_go(std::string_view arguments, bool white_first) {
     return go;
 }
 
+void ClockLag::shown(const search::TimeLeft& left) {
+    // More is another game, or a clock that was set.
+    constexpr Milliseconds none{0}, most{2000};
+    constexpr double share = 0.25;
+    if (last_ && thought_ && left.main > none) {
+        const auto lag = last_->main + last_->control.increment - *thought_ - left.main;
+        if (lag >= none && lag <= most) mean_ += share * (static_cast<double>(lag.count()) - mean_);
+    }
+    last_ = left;
+    thought_.reset();
+}
+
+Milliseconds ClockLag::mean() const { return Milliseconds(static_cast<std::int64_t>(mean_)); }
+
+search::TimeLeft ClockLag::without_lag(search::TimeLeft left) const {
+    left.main = std::max(left.main - mean(), Milliseconds(left.main.count() > 0));
+    left.control.increment -= mean();
+    return left;
+}
+
 search::Limits limits_of(const GoCommand& go, engine::Player mover) {
     search::Limits limits;
     limits.ponder = go.ponder;

@@ -37,6 +37,27 @@ struct GoCommand {
 // numbers ignored, as UCI asks; negative times count as none left.
 GoCommand parse_go(std::string_view arguments, bool white_first);
 
+// What a move costs on the clock beyond its thought, in the GUI, on the way, or waiting for a
+// processor: the times that a side is shown tell it.
+class ClockLag {
+   public:
+    // With each go: the mover's clock.
+    void shown(const search::TimeLeft& left);
+    // When its move is out.
+    void answered(search::Milliseconds thought) { thought_ = thought; }
+    // The next go is of another game.
+    void forget_game() { last_.reset(); }
+
+    search::Milliseconds mean() const;
+    // The clock as it would be without what the moves to come will cost beyond their thought.
+    search::TimeLeft without_lag(search::TimeLeft left) const;
+
+   private:
+    std::optional<search::TimeLeft> last_;
+    std::optional<search::Milliseconds> thought_;
+    double mean_ = 0;  // milliseconds
+};
+
 // The limits but for search_moves, which only the game can read.
 search::Limits limits_of(const GoCommand& go, engine::Player mover);
 

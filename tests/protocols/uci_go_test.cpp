@@ -52,6 +52,43 @@ TEST(UciGo, BadNumbersAreBounded) {
     EXPECT_FALSE(go.depth);
 }
 
+// Of a game of 1000 ms and 10 a move whose moves cost 30 ms beyond their thought of 20.
+TEST(UciGo, TheClockTellsTheLag) {
+    ClockLag lag;
+    search::TimeLeft left;
+    left.main = Milliseconds(1000);
+    left.control.increment = Milliseconds(10);
+    for (int move = 0; move < 20; ++move) {
+        lag.shown(left);
+        lag.answered(Milliseconds(20));
+        left.main -= Milliseconds(40);
+    }
+    EXPECT_GE(lag.mean(), Milliseconds(28));
+    EXPECT_LE(lag.mean(), Milliseconds(30));
+    const auto before = lag.mean();
+    EXPECT_EQ(lag.without_lag(left).main, left.main - before);
+    EXPECT_EQ(lag.without_lag(left).control.increment, Milliseconds(10) - before);
+    left.main = Milliseconds(0);
+    EXPECT_EQ(lag.without_lag(left).main, Milliseconds(0));
+}
+
+TEST(UciGo, AnotherGameTellsNoLag) {
+    ClockLag lag;
+    search::TimeLeft left;
+    left.main = Milliseconds(60000);
+    lag.shown(left);
+    lag.answered(Milliseconds(20));
+    left.main = Milliseconds(30000);
+    lag.shown(left);
+    left.main = Milliseconds(29000);
+    lag.shown(left);  // the move before was not answered
+    lag.answered(Milliseconds(0));
+    lag.forget_game();
+    left.main = Milliseconds(28000);
+    lag.shown(left);
+    EXPECT_EQ(lag.mean(), Milliseconds(0));
+}
+
 TEST(UciGo, MateTakesInfinite) {
     EXPECT_EQ(parse_go("mate infinite", false).mate, ~std::uint64_t{0});
     EXPECT_EQ(parse_go("mate 3000", false).mate, 3000u);
