@@ -4,9 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <new>
 
-#include "engine/base/error.h"
 #include "engine/encoding.h"
 #include "search/tree.h"
 
@@ -17,6 +15,9 @@ namespace {
 constexpr auto relaxed = std::memory_order_relaxed;
 constexpr std::size_t numbers = 3 + figure_count;
 constexpr std::size_t fixed_words = 1 + (numbers + 1) / 2;  // sizes, then the numbers
+
+// Of the key, beside the sizes, so that most answers to other questions are seen to be so at once.
+constexpr std::uint64_t tag_bits = 0xffffffff00000000;
 
 constexpr std::size_t words_for(std::size_t priors, std::size_t owners) {
     return fixed_words + (priors + 3) / 4 + (owners + 7) / 8;
@@ -52,11 +53,10 @@ std::array<float, numbers> numbers_of(const Evaluation& evaluation) {
 
 }  // namespace
 
-EvaluationCache::EvaluationCache(std::size_t bytes) {
-    const auto words = std::max(bytes / sizeof(Word), most_words + stride);
-    words_.reset(new (std::nothrow) Word[words]());
-    if (!words_) engine::fail("out of memory: no room for a cache of {} bytes", bytes);
-    places_ = (words - most_words) / stride;
+EvaluationCache::EvaluationCache(std::size_t bytes)
+    : memory_(std::max(bytes, least_bytes), least_bytes),
+      words_(reinterpret_cast<Word*>(memory_.data())) {
+    places_ = (memory_.size() / sizeof(Word) - most_words) / stride;
 }
 
 void EvaluationCache::clear() {
@@ -67,8 +67,8 @@ void EvaluationCache::store(std::uint64_t key, const Evaluation& evaluation) {
     const auto priors = evaluation.priors.size(), owners = evaluation.owners.size();
     const auto count = words_for(priors, owners);
     if (count + 1 > most_words) return;
-    std::array<std::uint64_t, most_words> data{};
-    data[0] = priors << 32 | owners;
+    std::array<std::uint64_t, most_words> data;
+    data[0] = (key & tag_bits) | priors << 16 | owners;
     Packer values(&data[1]);
     for (const float number : numbers_of(evaluation))
         values.put(std::bit_cast<std::uint32_t>(number), 32);
@@ -89,8 +89,8 @@ void EvaluationCache::store(std::uint64_t key, const Evaluation& evaluation) {
 bool EvaluationCache::load(std::uint64_t key, Evaluation& to) const {
     const Word* const at = &words_[place(key)];
     const auto sizes = at[1].load(relaxed);
-    const auto priors = sizes >> 32, owners = sizes & 0xffffffff;
-    if (priors > 4 * most_words || owners > 8 * most_words) return false;
+    if ((sizes & tag_bits) != (key & tag_bits)) return false;
+    const auto priors = sizes >> 16 & 0xffff, owners = sizes & 0xffff;
     const auto count = words_for(priors, owners);
     if (count + 1 > most_words) return false;
     std::array<std::uint64_t, most_words> data;

@@ -7,16 +7,17 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "search/evaluator.h"
+#include "search/memory.h"
 
 namespace search {
 
 class EvaluationCache {
    public:
-    // Fails with engine::Error when there is no memory at all for it.
+    // Of less when the system grants no more; memory is taken as it fills. Fails with engine::Error
+    // when there is none at all.
     explicit EvaluationCache(std::size_t bytes);
 
     // Priors come back in 16 bits (pack_prior), owners in 8.
@@ -31,8 +32,10 @@ class EvaluationCache {
 
     static constexpr std::size_t stride = 8;        // words between places: one cache line
     static constexpr std::size_t most_words = 512;  // of one answer
-    std::size_t places_ = 0;
-    std::unique_ptr<Word[]> words_;
+    static constexpr std::size_t least_bytes = (most_words + stride) * sizeof(Word);
+    std::size_t places_;
+    Memory memory_;
+    Word* words_;  // in it
 };
 
 }  // namespace search

@@ -18,6 +18,13 @@ constexpr float least_prior = 1e-9f;
 constexpr std::uint64_t first_round = 64;
 constexpr int most_rounds = 40;
 
+// The mean, or what the end is sure to be, as the player sees it who moved there.
+float value_of(const Node& node) {
+    const auto ending = node.ending.load(relaxed);
+    if (ending == Ending::loss) return 1;
+    return ending == Ending::win ? -1 : node.mean();
+}
+
 float logit(const Edge& edge) { return std::log(std::max(edge.prior(), least_prior)); }
 
 // What is known of each root move, in the order of the edges.
@@ -48,7 +55,7 @@ RootValues root_values(const Tree& tree) {
         const NodeId id = tree.child(tree.root(), edge);
         const auto n = id == no_node ? 0 : tree[id].visits.load(relaxed);
         visited.push_back(n > 0);
-        known.completed.push_back(n > 0 ? tree[id].mean() : 0);
+        known.completed.push_back(n > 0 ? value_of(tree[id]) : 0);
         if (n == 0) continue;
         sum += tree[id].value_sum.load(relaxed);
         visits += n;

@@ -29,10 +29,12 @@ struct Leaf {
     std::vector<float> priors;        // one a move, summing to 1, or empty for equal ones
     std::vector<std::int8_t> firsts;  // of a rollout, by move code (engine::RolloutResult)
     float value = 0;                  // as the player to move sees it
+    float draws = 0;                  // how likely a draw is
 };
 
-// Sums over rollouts of how many were drawn, who owned each point at the end, and by how much the
-// first player led; over a network's answers the last two. One thread adds, any thread reads.
+// Sums over rollouts of who owned each point at the end, and by how much the first player led; over
+// a network's answers likewise, and how many plies they expected the game to take. One thread adds,
+// any thread reads.
 class OwnerTally {
    public:
     static constexpr std::size_t most_points = 1024;
@@ -41,19 +43,20 @@ class OwnerTally {
     void add(const engine::RolloutResult& result);
     // What a network expects, `sign` being 1 where the first player is to move, else -1.
     void add(std::span<const float> owners, float lead, float sign);
+    void add_length(float plies);
     void reset();
 
     // Adds this tally to the sums of several.
     struct Sum {
-        std::int64_t rollouts = 0, draws = 0;  // rollouts: or answers
-        double lead = 0;
+        std::int64_t rollouts = 0, lengths = 0;  // rollouts: or answers
+        double lead = 0, plies = 0;
         std::vector<double> owners;
     };
     void add_to(Sum& sum) const;
 
    private:
-    std::atomic<std::int64_t> rollouts_ = 0, draws_ = 0;
-    std::atomic<double> lead_ = 0;
+    std::atomic<std::int64_t> rollouts_ = 0, lengths_ = 0;
+    std::atomic<double> lead_ = 0, plies_ = 0;
     std::atomic<std::size_t> points_ = 0;
     std::array<std::atomic<std::int64_t>, most_points> owners_{};
 };
@@ -97,6 +100,7 @@ class RolloutLeaf final : public LeafEvaluator<G> {
         tally_.add(result);
         leaf.firsts.assign(result.firsts.begin(), result.firsts.end());
         leaf.value = value(leaf.game.to_play(), result);
+        leaf.draws = result.outcome == engine::Outcome::draw ? 1.0f : 0.0f;
     }
 
     // The result, and in games with points a little of the lead: of moves that all win, or all

@@ -22,12 +22,21 @@ struct Limits {
     bool ponder = false;                       // limits take effect at ponder_hit()
     std::vector<engine::Move> only, avoid;     // root moves; `only` empty: all
     std::optional<Milliseconds> report_every;  // no reports unless set
+    int ply = 0;                               // moves of the game so far
 
     bool endless() const { return !simulations && !time && !(clock && !clock->control.unlimited); }
 };
 
 // Whether no second move can have more visits than the most visited one after `remaining` more.
 bool settled(const Standing& standing, std::uint64_t remaining);
+
+// What a level of strength below the full one comes to: simulations a move, and the temperature by
+// which the move is drawn from them.
+std::uint64_t simulations_of_level(int level);
+float temperature_of_level(int level);
+// Ratings for GUIs that know no levels: the strongest means full strength.
+inline constexpr int weakest_elo = 800, strongest_elo = 2800;
+int level_of_elo(int elo);
 
 // The times of one think, from the moment on when its limits took effect.
 class Schedule {
@@ -38,14 +47,21 @@ class Schedule {
     // The think must be over then, whatever the search has found.
     std::optional<Milliseconds> hard() const { return hard_; }
 
-    // Whether to end at `elapsed` after `simulations` of this think. `previous_value`: of the best
-    // move when the think began, if it was known.
+    // Whether to end at `elapsed` after `simulations` of this think; to be asked often, since it
+    // remembers when the best move last changed. `previous_value`: of the best move when the think
+    // began, if it was known.
     bool over(Milliseconds elapsed, std::uint64_t simulations, const Standing& standing,
-              std::optional<float> previous_value) const;
+              std::optional<float> previous_value);
 
    private:
+    bool calm(Milliseconds elapsed, const Standing& standing,
+              std::optional<float> previous_value) const;
+
     std::optional<Milliseconds> soft_, hard_;
     bool early_ = false;
+    bool saves_ = false;  // what is left over now is there later
+    std::optional<engine::Move> leader_;
+    Milliseconds changed_{0};  // when it became that
 };
 
 }  // namespace search

@@ -1,8 +1,11 @@
 // The leaf evaluator of AlphaGo Zero and AlphaZero: priors and value from a network, nothing
-// played out. Priors come sorted, the highest first, which selection relies on for speed only.
+// played out. Priors come sorted, the highest first, which makes selection fast.
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -17,8 +20,15 @@ template <engine::Game G>
 class NetworkLeaf final : public LeafEvaluator<G> {
    public:
     // `average_root`: over all symmetries; elsewhere one is drawn for each evaluation.
-    NetworkLeaf(std::unique_ptr<Evaluator<G>> evaluator, bool average_root)
-        : evaluator_(std::move(evaluator)), average_root_(average_root) {}
+    // `temperatures`: of the policy, at the root and elsewhere; 1 leaves it as it is.
+    struct Temperatures {
+        float root = 1, elsewhere = 1;
+    };
+    NetworkLeaf(std::unique_ptr<Evaluator<G>> evaluator, bool average_root,
+                Temperatures temperatures = {})
+        : evaluator_(std::move(evaluator)),
+          average_root_(average_root),
+          temperatures_(temperatures) {}
 
     void evaluate(std::span<Leaf<G>> leaves) override {
         answers_.resize(std::max(answers_.size(), leaves.size()));
@@ -38,29 +48,47 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     OwnerTally* tally() override { return &tally_; }
 
    private:
-    void absorb(const Evaluation& answer, Leaf<G>& leaf) {
+    void absorb(Evaluation& answer, Leaf<G>& leaf) {
         leaf.value = answer.value();
+        leaf.draws = answer.draw;
         const float sign = leaf.game.to_play() == engine::Player::first ? 1.0f : -1.0f;
         if (!answer.owners.empty()) tally_.add(answer.owners, answer[Figure::lead], sign);
-        const auto count = static_cast<std::size_t>(leaf.moves.size());
-        sorted_.clear();
-        for (std::size_t i = 0; i < count; ++i)
-            sorted_.emplace_back(answer.priors[i], leaf.moves[static_cast<int>(i)]);
-        std::stable_sort(sorted_.begin(), sorted_.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
-        leaf.moves.clear();
-        leaf.priors.clear();
-        for (const auto& [prior, move] : sorted_) {
-            leaf.moves.push(move);
-            leaf.priors.push_back(prior);
+        if (const float left = answer[Figure::moves_left]; left > 0)
+            tally_.add_length(left + static_cast<float>(leaf.line.size()));
+        const bool root = leaf.path.size() == 1;
+        temper(answer.priors, root ? temperatures_.root : temperatures_.elsewhere);
+        sort(answer.priors, leaf.moves);
+        leaf.priors.swap(answer.priors);
+    }
+
+    static void temper(std::vector<float>& priors, float temperature) {
+        if (temperature == 1) return;
+        float sum = 0;
+        for (float& prior : priors) sum += prior = std::pow(prior, 1 / temperature);
+        for (float& prior : priors) prior /= sum;
+    }
+
+    // Both by the priors, the highest first and equals as they were. The bits of floats that are
+    // not negative are in the order of the floats.
+    void sort(std::vector<float>& priors, engine::MoveList& moves) {
+        keys_.clear();
+        for (std::size_t i = 0; i < priors.size(); ++i)
+            keys_.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(priors[i])} << 32 |
+                            i << 16 | moves[static_cast<int>(i)].code);
+        std::sort(keys_.begin(), keys_.end());
+        moves.clear();
+        for (std::size_t i = 0; i < keys_.size(); ++i) {
+            moves.push({static_cast<std::uint16_t>(keys_[i])});
+            priors[i] = std::bit_cast<float>(~static_cast<std::uint32_t>(keys_[i] >> 32));
         }
     }
 
     std::unique_ptr<Evaluator<G>> evaluator_;
     bool average_root_;
+    Temperatures temperatures_;
     std::vector<Evaluation> answers_;
     std::vector<Query<G>> queries_;
-    std::vector<std::pair<float, engine::Move>> sorted_;
+    std::vector<std::uint64_t> keys_;
     OwnerTally tally_;
 };
 

@@ -10,8 +10,10 @@
 namespace search {
 
 // How a search goes about it; without a network always by games played out.
-enum class Method : std::uint8_t { automatic, uct, puct };
-inline constexpr std::array<std::string_view, 3> method_names = {"auto", "uct", "puct"};
+enum class Method : std::uint8_t { automatic, uct, puct, gumbel };
+inline constexpr std::array<std::string_view, 4> method_names = {"auto", "uct", "puct", "gumbel"};
+
+inline constexpr int full_level = 20;
 
 struct SearchParams {
     Method method = Method::automatic;
@@ -27,7 +29,17 @@ struct SearchParams {
     float cpuct_base = 19652, cpuct_factor = 1;
     float fpu_reduction = 0.25f, root_fpu_reduction = 0.25f;
     float virtual_loss = 1;
-    int batch = 1;  // leaves that a worker asks the network about at once
+    float policy_temperature = 1, root_policy_temperature = 0;
+    float noise = 0, noise_alpha = 0;  // of the priors at the root (Dirichlet)
+    int gumbel_moves = 16;             // root moves that take part (gumbel)
+    float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
+    float temperature = 0;      // of the choice of a move by its visits
+    int temperature_plies = 0;  // moves of a game that it is for; 0: all
+    float draw_score = 0;       // what a draw is worth to the side that thinks, -1..1
+    bool solver = true;         // proven wins and losses are backed up
+    bool lower_bound = true;    // the final move is the best even if values disappoint (networks)
+    int level = full_level;     // of strength
+    int batch = 1;              // leaves that a worker asks the network about at once
     bool root_symmetries = false;
     int expand_after = 1;   // visits at which a leaf gets children
     int lag_ms = 20;        // least reserve on the clock; what is measured comes on top
@@ -41,7 +53,8 @@ struct SearchParams {
         using P = SearchParams;
         return std::tuple{
             Choice<P, Method>{"search", &P::method, method_names,
-                              "auto: puct with a network, uct (games played out) without"},
+                              "auto: puct with a network, uct (games played out) without; gumbel: "
+                              "puct below a root that halves its candidates"},
             Option<P, int>{"threads", &P::threads, 1, 1024, "worker threads"},
             Option<P, int>{"memory", &P::memory_mib, 16, 1 << 20, "MiB for tree and caches"},
             Option<P, int>{"seed", &P::seed, 0, 0x7fffffff, "of all randomness"},
@@ -64,6 +77,31 @@ struct SearchParams {
                              "likewise at the root"},
             Option<P, float>{"virtual-loss", &P::virtual_loss, 0, 100,
                              "losses that a visit under way counts (puct)"},
+            Option<P, float>{"policy-temperature", &P::policy_temperature, 0.1f, 10,
+                             "of the network's priors; above 1 they are evened out"},
+            Option<P, float>{"root-policy-temperature", &P::root_policy_temperature, 0, 10,
+                             "likewise at the root; 0: as elsewhere"},
+            Option<P, float>{"noise", &P::noise, 0, 1,
+                             "share of Dirichlet's noise in the priors at the root"},
+            Option<P, float>{"noise-alpha", &P::noise_alpha, 0, 100,
+                             "its concentration; 0: 10 over the number of moves"},
+            Option<P, int>{"gumbel-moves", &P::gumbel_moves, 1, 1000,
+                           "root moves that take part (gumbel)"},
+            Option<P, float>{"gumbel-visits", &P::gumbel_visits, 0, 1e6f, "c_visit (gumbel)"},
+            Option<P, float>{"gumbel-scale", &P::gumbel_scale, 0, 1000, "c_scale (gumbel)"},
+            Option<P, float>{"gumbel-noise", &P::gumbel_noise, 0, 10,
+                             "of the choice of candidates; 1 in self-play (gumbel)"},
+            Option<P, float>{"temperature", &P::temperature, 0, 10,
+                             "moves are drawn by visits^(1/temperature); 0: the best"},
+            Option<P, int>{"temperature-plies", &P::temperature_plies, 0, 1000,
+                           "first moves of a game that it is for; 0: all"},
+            Option<P, float>{"draw-score", &P::draw_score, -1, 1,
+                             "what a draw is worth to the side that thinks"},
+            Flag<P>{"solver", &P::solver, "back up proven wins, losses and draws"},
+            Flag<P>{"lower-bound", &P::lower_bound,
+                    "choose the move by the lower confidence bound of its value (puct)"},
+            Option<P, int>{"level", &P::level, 0, full_level,
+                           "of strength, by visits and temperature; 20: full"},
             Option<P, int>{"batch", &P::batch, 1, 8, "positions a worker evaluates at once"},
             Flag<P>{"root-symmetries", &P::root_symmetries,
                     "average the network over all symmetries at the root"},

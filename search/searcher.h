@@ -25,6 +25,7 @@
 #include "search/network_leaf.h"
 #include "search/params.h"
 #include "search/symmetry_evaluator.h"
+#include "search/temperature.h"
 #include "search/tree_search.h"
 #include "search/worker.h"
 
@@ -93,16 +94,29 @@ class Searcher {
 
     void rebuild(const SearchParams& params);
     bool uses_network() const { return network_ && params_.method != Method::uct; }
+    bool uses_gumbel() const { return uses_network() && params_.method == Method::gumbel; }
+    // Analysis without an end shows what is there, at full strength.
+    static bool plays(const Limits& limits) { return !limits.endless(); }
+    bool limits_strength(const Limits& limits) const {
+        return params_.level < full_level && plays(limits);
+    }
     std::unique_ptr<LeafEvaluator<G>> make_leaf_evaluator(std::uint64_t seed) const;
     void hire();
     void reset_tallies();
     void begin(const Limits& limits);
+    void begin_tree(const Limits& limits);
+    void begin_team(const Limits& limits);
     void take_effect(const Limits& limits);
+    void prepare_root();
+    void meet();
+    void choose();
+    std::optional<Move> draw_move(float temperature);
+    Telling telling(int most_moves, int variation_length) const;
     void run(int index, const Report& report, const Report& done);
     void work(Worker<G>& worker);
     void conduct(const Report& report, const Report& done);
     TimePoint next_event(TimePoint next_report) const;
-    bool over() const;
+    bool over();
     void add_owners(Analysis& picture) const;
     static Milliseconds since(TimePoint start) {
         return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
@@ -114,12 +128,15 @@ class Searcher {
     std::unique_ptr<TreeSearch<G>> search_;
     std::vector<std::unique_ptr<Worker<G>>> workers_;
     LagMeter late_;
+    engine::Random random_{0};  // of noise and temperature
+    bool noisy_ = false;        // the priors at the root have their noise
 
     // Readers of the tree against whoever moves its parts; never taken in a simulation.
     mutable std::mutex picture_mutex_;
     TimePoint started_{};
     std::string fault_;
     std::optional<Milliseconds> elapsed_;  // once the think is over
+    std::optional<Move> chosen_;           // then, where it need not be the first in order
 
     // The conductor of a think against its owner and workers.
     mutable std::mutex mutex_;
@@ -168,7 +185,12 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
     if (!uses_network()) return std::make_unique<RolloutLeaf<G>>(seed);
     auto turned = std::make_unique<SymmetryEvaluator<G>>(network_->make_evaluator(), seed);
     auto cached = std::make_unique<CachedEvaluator<G>>(std::move(turned), cache_);
-    return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries);
+    typename NetworkLeaf<G>::Temperatures temperatures;
+    temperatures.elsewhere = params_.policy_temperature;
+    const float root = params_.root_policy_temperature;
+    temperatures.root = root > 0 ? root : params_.policy_temperature;
+    return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries,
+                                            temperatures);
 }
 
 template <engine::Game G>
@@ -181,6 +203,7 @@ void Searcher<G>::hire() {
         workers_.push_back(std::make_unique<Worker<G>>(make_leaf_evaluator(seed), batch));
     }
     crew_ = std::make_unique<Crew>(params_.threads + 1);
+    random_ = engine::Random(static_cast<std::uint64_t>(params_.seed));
 }
 
 template <engine::Game G>
@@ -194,8 +217,10 @@ void Searcher<G>::set_params(const SearchParams& params) {
     }
     const std::lock_guard lock(picture_mutex_);
     search_->set_params(params);
+    if (old.draw_score != params.draw_score) search_->set_root(G(position()));
     const auto workers = [](const SearchParams& of) {
-        return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries);
+        return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries, of.policy_temperature,
+                          of.root_policy_temperature);
     };
     if (workers(old) != workers(params)) hire();
 }
@@ -225,11 +250,13 @@ void Searcher<G>::clear() {
     crew_->wait();
     const std::lock_guard lock(picture_mutex_);
     search_->set_root(G(position()));
+    reset_tallies();
     hire();
 }
 
 template <engine::Game G>
 void Searcher<G>::reset_tallies() {
+    noisy_ = false;
     for (const auto& worker : workers_)
         if (auto* tally = worker->tally()) tally->reset();
 }
@@ -252,10 +279,23 @@ Analysis Searcher<G>::analysis(int most_moves, int variation_length) const {
     picture.depth = picture.simulations ? static_cast<int>(steps / picture.simulations) : 0;
     picture.deepest = static_cast<int>(deepest);
     picture.memory_used = static_cast<float>(tree.share_used());
-    picture.moves = describe_moves(tree, search_->filter(), most_moves, variation_length);
+    picture.draws = root.draws.value();
+    picture.draw_score = params_.draw_score;
+    picture.moves = describe_moves(tree, search_->filter(), telling(most_moves, variation_length));
     picture.fault = fault_;
     add_owners(picture);
     return picture;
+}
+
+template <engine::Game G>
+Telling Searcher<G>::telling(int most_moves, int variation_length) const {
+    Telling telling;
+    telling.most_moves = most_moves;
+    telling.variation_length = variation_length;
+    telling.draw_score = params_.draw_score;
+    telling.first = chosen_;
+    telling.by_bound = uses_network() && params_.lower_bound;
+    return telling;
 }
 
 template <engine::Game G>
@@ -263,11 +303,12 @@ void Searcher<G>::add_owners(Analysis& picture) const {
     OwnerTally::Sum sum;
     for (const auto& worker : workers_)
         if (const auto* tally = worker->tally()) tally->add_to(sum);
+    if (sum.lengths > 0)
+        picture.plies_left = static_cast<float>(sum.plies / static_cast<double>(sum.lengths));
     if (sum.rollouts == 0) return;
     const double sign = position().to_play() == engine::Player::first ? 1 : -1;
     const double scale = sign / static_cast<double>(sum.rollouts);
     picture.lead = static_cast<float>(scale * sum.lead);
-    picture.draws = static_cast<float>(sum.draws) / static_cast<float>(sum.rollouts);
     for (const double owner : sum.owners)
         picture.owners.push_back(static_cast<float>(scale * owner));
 }

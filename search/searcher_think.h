@@ -19,25 +19,75 @@ template <engine::Game G>
 void Searcher<G>::begin(const Limits& limits) {
     {
         const std::lock_guard lock(picture_mutex_);
-        MoveFilter filter;
-        filter.restrict(limits.only, limits.avoid);
-        search_->restrict_root(filter, limits.only);
-        for (const auto& worker : workers_) worker->reset_counts();
-        started_ = Clock::now();
-        fault_.clear();
-        elapsed_.reset();
+        begin_tree(limits);
     }
     const std::lock_guard lock(mutex_);
+    begin_team(limits);
+    interrupted_ = ended_ = false;
+    if (!limits.ponder) take_effect(limits);
+}
+
+// With picture_mutex_ held.
+template <engine::Game G>
+void Searcher<G>::begin_tree(const Limits& limits) {
+    MoveFilter filter;
+    filter.restrict(limits.only, limits.avoid);
+    // What stronger thinks have found is not for a weak one.
+    if (limits_strength(limits)) search_->set_root(G(position()));
+    search_->favour(position().to_play());
+    search_->restrict_root(filter, limits.only);
+    for (const auto& worker : workers_) worker->reset_counts();
+    started_ = Clock::now();
+    fault_.clear();
+    elapsed_.reset();
+    chosen_.reset();
+}
+
+// With mutex_ held.
+template <engine::Game G>
+void Searcher<G>::begin_team(const Limits& limits) {
     limits_ = limits;
+    if (limits_strength(limits)) {
+        const auto most = simulations_of_level(params_.level);
+        limits_.simulations = std::min(limits.simulations.value_or(most), most);
+    }
     team_ = std::make_unique<Team>();
-    team_->early_end = params_.early_end;
+    team_->early_end = params_.early_end && !uses_gumbel() && !limits_strength(limits);
+    if (uses_network()) team_->check_every = 16;
+    team_->meets_at_root = uses_gumbel() || params_.noise > 0;
     schedule_.reset();
     const auto now = standing(search_->tree(), search_->filter());
     previous_value_.reset();
     if (now.first_visits > 0) previous_value_ = now.value;
     working_ = workers_.size();
-    interrupted_ = ended_ = false;
-    if (!limits.ponder) take_effect(limits);
+    if (search_->tree()[search_->tree().root()].expanded()) prepare_root();
+}
+
+// Of an expanded root, with no descent under way: the noise of its priors, and Gumbel's choice.
+template <engine::Game G>
+void Searcher<G>::prepare_root() {
+    const auto edges = search_->tree().edges(search_->tree().root());
+    if (params_.noise > 0 && !noisy_ && !edges.empty()) {
+        const float typical = 10 / static_cast<float>(edges.size());
+        search_->mix_root_noise(random_, params_.noise,
+                                params_.noise_alpha > 0 ? params_.noise_alpha : typical);
+        noisy_ = true;
+    }
+    const auto& filter = search_->filter();
+    const bool choosable = std::any_of(edges.begin(), edges.end(),
+                                       [&](const Edge& edge) { return filter(edge.move); });
+    if (!uses_gumbel() || team_->gumbel || !choosable) return;
+    const GumbelParams gumbel{params_.gumbel_moves, params_.gumbel_visits, params_.gumbel_scale,
+                              params_.gumbel_noise};
+    team_->gumbel.emplace(search_->tree(), filter, limits_.simulations, gumbel, random_);
+}
+
+// What workers meet for.
+template <engine::Game G>
+void Searcher<G>::meet() {
+    const std::lock_guard lock(picture_mutex_);
+    if (team_->full.exchange(false)) search_->flip();
+    if (team_->meets_at_root && search_->tree()[search_->tree().root()].expanded()) prepare_root();
 }
 
 // With mutex_ held.
@@ -45,7 +95,7 @@ template <engine::Game G>
 void Searcher<G>::take_effect(const Limits& limits) {
     effective_ = Clock::now();
     schedule_.emplace(limits, params_, moves_to_come(position()), lag());
-    if (limits.simulations) team_->limit = std::max<std::uint64_t>(*limits.simulations, 1);
+    if (limits_.simulations) team_->limit = std::max<std::uint64_t>(*limits_.simulations, 1);
 }
 
 template <engine::Game G>
@@ -93,12 +143,8 @@ void Searcher<G>::run(int index, const Report& report, const Report& done) {
 
 template <engine::Game G>
 void Searcher<G>::work(Worker<G>& worker) {
-    const auto flip = [this] {
-        const std::lock_guard lock(picture_mutex_);
-        search_->flip();
-    };
     try {
-        worker.work(*search_, *team_, flip);
+        worker.work(*search_, *team_, [this] { meet(); });
     } catch (const std::exception& error) {
         {
             const std::lock_guard lock(picture_mutex_);
@@ -135,6 +181,7 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     {
         const std::lock_guard picture(picture_mutex_);
         elapsed_ = since(started_);
+        choose();
     }
     if (done) done(analysis());
     lock.lock();
@@ -143,6 +190,34 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     late_.record(since(due));
     ended_ = true;
     changed_.notify_all();
+}
+
+// With picture_mutex_ held: the move to play, where it need not be the best.
+template <engine::Game G>
+void Searcher<G>::choose() {
+    const auto now = standing(search_->tree(), search_->filter());
+    if (limits_strength(limits_)) {
+        chosen_ = draw_move(temperature_of_level(params_.level));
+    } else if (now.decided || now.moves == 0 || !plays(limits_)) {
+        return;
+    } else if (params_.temperature > 0 &&
+               (params_.temperature_plies == 0 || limits_.ply < params_.temperature_plies)) {
+        chosen_ = draw_move(params_.temperature);
+    } else if (team_->gumbel) {
+        chosen_ = team_->gumbel->best();
+    }
+}
+
+template <engine::Game G>
+std::optional<Move> Searcher<G>::draw_move(float temperature) {
+    auto best_first = telling(0x7fffffff, 1);
+    best_first.by_bound = false;
+    const auto moves = describe_moves(search_->tree(), search_->filter(), best_first);
+    if (moves.empty()) return std::nullopt;
+    std::vector<std::uint64_t> counts;
+    counts.reserve(moves.size());
+    for (const auto& move : moves) counts.push_back(move.visits);
+    return moves[draw_by_count(counts, temperature, random_)].move;
 }
 
 // With mutex_ held: when to look again at the latest.
@@ -158,7 +233,7 @@ TimePoint Searcher<G>::next_event(TimePoint next_report) const {
 
 // With mutex_ held.
 template <engine::Game G>
-bool Searcher<G>::over() const {
+bool Searcher<G>::over() {
     if (interrupted_) return true;
     // All may have left because the root has nothing to search; an endless think goes on waiting.
     if (!schedule_) return false;

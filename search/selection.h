@@ -1,5 +1,6 @@
 // Which edge a descent takes: one small type a rule. A rule is prepared once a node with its
-// visit count and then scores each edge by what is known of its child.
+// visit count and then scores each edge by what is known of its child. A move that is known to win
+// is always taken, one that is known to lose only when all do.
 #pragma once
 
 #include <algorithm>
@@ -112,25 +113,38 @@ Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
     const auto n = static_cast<float>(parent.visits.load(relaxed) + parent.in_flight.load(relaxed));
     const float c = rule.exploration + rule.growth * portable_log((1 + n + rule.base) / rule.base);
     const float scale = c * std::sqrt(std::max(n, 1.0f));
-    Edge *best = nullptr, *unvisited = nullptr;
+    // Then all behind the first unvisited move are unvisited, and none has a higher prior.
+    const bool prefix = id != tree.root() && tree.in_order(id);
+    Edge *best = nullptr, *unvisited = nullptr, *lost = nullptr;
     float best_score = 0, visited_priors = 0;
     for (Edge& edge : tree.edges_to_enter(id)) {
         if (!allowed(edge.move)) continue;
         const NodeId child = edge.child.load(std::memory_order_acquire);
+        if (child == no_node) {
+            if (!unvisited || edge.packed_prior > unvisited->packed_prior) unvisited = &edge;
+            if (prefix) break;
+            continue;
+        }
+        const Node& node = tree[child];
         const float prior = edge.prior();
-        const auto losses =
-            child == no_node ? 0u : std::uint32_t{tree[child].in_flight.load(relaxed)};
-        const auto visits = child == no_node ? 0u : tree[child].visits.load(relaxed);
+        const std::uint32_t losses = node.in_flight.load(relaxed);
+        const auto visits = node.visits.load(relaxed);
         if (visits + losses == 0) {
             if (!unvisited || edge.packed_prior > unvisited->packed_prior) unvisited = &edge;
             continue;
         }
         visited_priors += prior;
-        const float score = tree[child].mean(static_cast<float>(losses) * rule.virtual_loss) +
+        const auto ending = node.ending.load(relaxed);
+        if (ending == Ending::loss) return &edge;
+        if (ending == Ending::win) {
+            lost = &edge;
+            continue;
+        }
+        const float score = node.mean(static_cast<float>(losses) * rule.virtual_loss) +
                             scale * prior / static_cast<float>(1 + visits + losses);
         if (!best || score > best_score) best = &edge, best_score = score;
     }
-    if (!unvisited) return best;
+    if (!unvisited) return best ? best : lost;
     const float reduction = id == tree.root() ? rule.root_reduction : rule.reduction;
     const float urgency =
         -parent.mean() - reduction * std::sqrt(visited_priors) + scale * unvisited->prior();
@@ -142,15 +156,22 @@ Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
 template <class Rule, class Allowed>
 Edge* select(Tree& tree, NodeId id, const Rule& rule, Allowed allowed) {
     const typename Rule::AtNode at_node(rule, tree[id]);
-    Edge* best = nullptr;
+    Edge *best = nullptr, *lost = nullptr;
     float best_score = 0;
     for (Edge& edge : tree.edges_to_enter(id)) {
         if (!allowed(edge.move)) continue;
         const NodeId child = edge.child.load(std::memory_order_acquire);
+        const auto ending =
+            child == no_node ? Ending::unknown : tree[child].ending.load(std::memory_order_relaxed);
+        if (ending == Ending::loss) return &edge;
+        if (ending == Ending::win) {
+            lost = &edge;
+            continue;
+        }
         const float score = at_node.score(edge, child == no_node ? nullptr : &tree[child]);
         if (!best || score > best_score) best = &edge, best_score = score;
     }
-    return best;
+    return best ? best : lost;
 }
 
 }  // namespace search

@@ -1,13 +1,10 @@
 #include "search/tree.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <functional>
 #include <new>
-
-#include "engine/base/error.h"
 
 namespace search {
 
@@ -19,14 +16,6 @@ constexpr std::size_t edge_units(std::size_t edges) { return (edges * sizeof(Edg
 constexpr std::size_t root_reserve = 4 * (node_units + edge_units(640));
 constexpr std::size_t least_budget = std::size_t{1} << 20, most_budget = std::size_t{32} << 30;
 
-constexpr std::uint32_t least_exponent = 96;  // 2^-31 in the bits of a float
-
-std::byte* map(std::size_t bytes) {
-    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    return memory == MAP_FAILED ? nullptr : static_cast<std::byte*>(memory);
-}
-
 void copy_counts(const Node& from, Node& to) {
     constexpr auto relaxed = std::memory_order_relaxed;
     to.value_sum.store(from.value_sum.load(relaxed), relaxed);
@@ -35,26 +24,32 @@ void copy_counts(const Node& from, Node& to) {
     to.rollout_visits.store(from.rollout_visits.load(relaxed), relaxed);
     to.stage.store(from.stage.load(relaxed), relaxed);
     to.ending.store(from.ending.load(relaxed), relaxed);
+    to.plies.store(from.plies.load(relaxed), relaxed);
+    to.squares.copy(from.squares);
+    to.draws.copy(from.draws);
 }
 
 }  // namespace
 
 std::uint16_t pack_prior(float prior) {
     const auto bits = std::bit_cast<std::uint32_t>(std::clamp(prior, 0.0f, 1.0f)) + (1u << 11);
-    const auto least = least_exponent << 23;
+    const auto least = least_prior_exponent << 23;
     return bits < least ? std::uint16_t{0} : static_cast<std::uint16_t>((bits - least) >> 12);
 }
 
-float unpack_prior(std::uint16_t packed) {
-    if (packed == 0) return 0;
-    return std::bit_cast<float>((std::uint32_t{packed} << 12) + (least_exponent << 23));
+float Node::variance() const {
+    if (visits.load(std::memory_order_relaxed) < 2) return 0;
+    const float middle = mean();
+    return std::max(squares.value() - middle * middle, 0.0f);
 }
 
-float Node::mean(double losses) const {
-    const double n = visits.load(std::memory_order_relaxed) + losses;
-    if (n == 0) return 0;
-    const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed)) / value_unit;
-    return static_cast<float>((sum - losses) / n);
+void SmallMean::add(float sample, std::uint32_t count) {
+    constexpr std::uint32_t golden = 2654435769u;  // 2^32 times the golden ratio's fraction
+    const auto dither = static_cast<float>(count * golden >> 8) / (1 << 24);
+    const auto mean = static_cast<float>(packed_.load(relaxed));
+    const float step = (std::clamp(sample, 0.0f, 1.0f) * most - mean) / static_cast<float>(count);
+    packed_.store(static_cast<std::uint16_t>(std::clamp(mean + step + dither, 0.0f, most)),
+                  relaxed);
 }
 
 void AmafCount::add(float value) {
@@ -71,15 +66,12 @@ float AmafCount::mean() const {
     return static_cast<float>(packed & 0xffff) / static_cast<float>(packed >> 16) - 1;
 }
 
-Tree::Tree(std::size_t budget_bytes) {
-    auto bytes = std::clamp(budget_bytes, least_budget, most_budget);
-    while (!(base_ = map(bytes)) && bytes / 2 >= least_budget) bytes /= 2;
-    if (!base_) engine::fail("out of memory: cannot reserve {} bytes for the tree", bytes);
-    half_units_ = bytes / unit / 2;
+Tree::Tree(std::size_t budget_bytes)
+    : memory_(std::clamp(budget_bytes, least_budget, most_budget), least_budget),
+      base_(memory_.data()),
+      half_units_(memory_.size() / unit / 2) {
     clear();
 }
-
-Tree::~Tree() { ::munmap(base_, 2 * half_units_ * unit); }
 
 NodeId Tree::child(NodeId parent, const Edge& edge) const {
     const NodeId id = edge.child.load(std::memory_order_acquire);
@@ -110,7 +102,41 @@ NodeId Tree::enter(Edge& edge) {
 }
 
 void Tree::mark(NodeId id, Ending ending) {
-    node(id).ending.store(ending, std::memory_order_relaxed);
+    auto unknown = Ending::unknown;
+    node(id).ending.compare_exchange_strong(unknown, ending, std::memory_order_relaxed);
+}
+
+void Tree::unmark(NodeId id) {
+    node(id).ending.store(Ending::none, std::memory_order_relaxed);
+    node(id).plies.store(0, std::memory_order_relaxed);
+}
+
+void Tree::prove(const Path& path, bool lists_all) {
+    for (auto i = path.size() - 1; i-- > 1;)
+        if (!settle(path[i], node(path[i + 1]), lists_all)) return;
+}
+
+// Whether `parent` is decided now and was not before, one of its children being `child`.
+bool Tree::settle(NodeId parent, const Node& child, bool lists_all) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    Node& settled = node(parent);
+    if (settled.decided()) return false;
+    const auto decide = [&](Ending ending, int plies) {
+        settled.plies.store(static_cast<std::uint16_t>(std::min(plies + 1, 0xffff)), relaxed);
+        settled.ending.store(ending, relaxed);
+        return true;
+    };
+    if (child.ending.load(relaxed) == Ending::loss) return decide(Ending::win, child.plies);
+    if (!lists_all) return false;
+    bool draw = false;
+    int longest = 0;
+    for (const Edge& edge : edge_span(settled)) {
+        const NodeId id = this->child(parent, edge);
+        if (id == no_node || !node(id).decided()) return false;
+        draw = draw || node(id).ending.load(relaxed) == Ending::draw;
+        longest = std::max<int>(longest, node(id).plies);
+    }
+    return decide(draw ? Ending::draw : Ending::loss, longest);
 }
 
 bool Tree::claim(NodeId id) {
@@ -125,7 +151,8 @@ bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const floa
     if (first == no_node) return unclaim(id), false;
     Node& parent = node(id);
     parent.first_edge = first;
-    parent.edge_count = static_cast<std::uint16_t>(count);
+    parent.edge_count = count & 0x7fff;
+    parent.in_order = std::is_sorted(priors.begin(), priors.end(), std::greater<>());
     const auto equal = pack_prior(1 / static_cast<float>(std::max<std::size_t>(count, 1)));
     const auto edges = edge_span(parent);
     for (std::size_t i = 0; i < count; ++i) {
@@ -137,14 +164,17 @@ bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const floa
     return true;
 }
 
-void Tree::back_up(const Path& path, float value) {
+void Tree::back_up(const Path& path, float value, float draws) {
     constexpr auto relaxed = std::memory_order_relaxed;
     auto amount = fixed_point(value);
+    const float square = value * value;
     for (auto id = path.rbegin(); id != path.rend(); ++id) {
         amount = -amount;
         Node& passed = node(*id);
         passed.value_sum.fetch_add(amount, relaxed);
-        passed.visits.fetch_add(1, relaxed);
+        const auto visits = passed.visits.fetch_add(1, relaxed) + 1;
+        passed.squares.add(square, visits);
+        passed.draws.add(draws, visits);
         passed.in_flight.fetch_sub(1, relaxed);
     }
 }
@@ -178,6 +208,7 @@ void Tree::replace_root_priors(std::span<const float> priors) {
     const auto edges = edge_span(node(root_));
     assert(priors.size() == edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) edges[i].packed_prior = pack_prior(priors[i]);
+    node(root_).in_order = 0;
 }
 
 bool Tree::advance(engine::Move move) {
@@ -207,6 +238,7 @@ NodeId Tree::copy(NodeId passive, std::size_t reserve) {
     Node& to = *new (&node(id)) Node;
     copy_counts(from, to);
     to.edge_count = from.edge_count;
+    to.in_order = from.in_order;
     to.first_edge = static_cast<NodeId>(id + node_units);
     const auto new_edges = edge_span(to);
     for (std::size_t i = 0; i < old_edges.size(); ++i) {
@@ -214,7 +246,9 @@ NodeId Tree::copy(NodeId passive, std::size_t reserve) {
         edge.move = old_edges[i].move;
         edge.packed_prior = old_edges[i].packed_prior;
         edge.amaf.copy(old_edges[i].amaf);
-        edge.child.store(child(passive, old_edges[i]), std::memory_order_relaxed);
+        const NodeId kept = child(passive, old_edges[i]);
+        edge.child.store(kept, std::memory_order_relaxed);
+        if (kept != old_edges[i].child) to.in_order = 0;
     }
     return id;
 }

@@ -12,17 +12,34 @@
 #pragma once
 
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/game.h"
+#include "search/memory.h"
 
 namespace search {
 
 using NodeId = std::uint32_t;  // in units of 8 bytes from the start of the budget
 inline constexpr NodeId no_node = 0;
+
+// The mean of numbers in [0, 1] in 16 bits, one sample after another; of two threads that add at
+// once one may be lost. What a step is too small for is made up for by a dither that depends on the
+// number of samples alone, so that one thread gives one mean.
+class SmallMean {
+   public:
+    void add(float sample, std::uint32_t count);  // `count`: samples, this one included
+    float value() const { return static_cast<float>(packed_.load(relaxed)) / most; }
+    void copy(const SmallMean& other) { packed_.store(other.packed_.load(relaxed), relaxed); }
+
+   private:
+    static constexpr auto relaxed = std::memory_order_relaxed;
+    static constexpr float most = 65535;
+    std::atomic<std::uint16_t> packed_ = 0;
+};
 
 // Values in sums: exact, and so the same in any order of addition, for 2^38 visits.
 inline constexpr double value_unit = 1 << 24;
@@ -32,7 +49,11 @@ inline std::int64_t fixed_point(float value) {
 
 // A prior in 16 bits: 5 of exponent, 11 of mantissa, from 2^-31 to 1.
 std::uint16_t pack_prior(float prior);
-float unpack_prior(std::uint16_t packed);
+inline constexpr std::uint32_t least_prior_exponent = 96;  // 2^-31 in the bits of a float
+inline float unpack_prior(std::uint16_t packed) {
+    if (packed == 0) return 0;
+    return std::bit_cast<float>((std::uint32_t{packed} << 12) + (least_prior_exponent << 23));
+}
 
 // How rollouts ended in which a move was made at any time by the player whose turn it is here, and
 // not first by the other (all moves as first, AMAF). Halved when the count is full, so old rollouts
@@ -62,7 +83,8 @@ static_assert(sizeof(Edge) <= 12);
 
 enum class Stage : std::uint8_t { fresh, claimed, expanded };
 
-// The end of the game at a node, as the player to move there sees it.
+// The end of the game at a node, or what it is sure to come to, as the player to move there sees
+// it.
 enum class Ending : std::uint8_t { unknown, none, draw, win, loss };
 
 struct Node {
@@ -71,14 +93,27 @@ struct Node {
     std::atomic<std::uint32_t> visits = 0;
     std::atomic<std::uint32_t> rollout_visits = 0;
     NodeId first_edge = no_node;
-    std::uint16_t edge_count = 0;
+    std::uint16_t edge_count : 15 = 0;
+    std::uint16_t in_order : 1 = 0;
     std::atomic<std::uint16_t> in_flight = 0;
     std::atomic<Stage> stage = Stage::fresh;
     std::atomic<Ending> ending = Ending::unknown;
+    std::atomic<std::uint16_t> plies = 0;  // to the end, where it is sure
+    SmallMean squares;                     // of the values
+    SmallMean draws;                       // how likely a draw was said to be
 
+    bool decided() const { return decides(ending.load(std::memory_order_relaxed)); }
+    static bool decides(Ending ending) { return ending > Ending::none; }
     bool expanded() const { return stage.load(std::memory_order_acquire) == Stage::expanded; }
     // Mean value over the finished visits and `losses` more, each counted as lost; 0 without any.
-    float mean(double losses = 0) const;
+    float mean(double losses = 0) const {
+        const double n = visits.load(std::memory_order_relaxed) + losses;
+        if (n == 0) return 0;
+        const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed));
+        return static_cast<float>((sum / value_unit - losses) / n);
+    }
+    // Of the values about their mean, of at least two visits; 0 below.
+    float variance() const;
 };
 static_assert(sizeof(Node) <= 40);
 
@@ -91,11 +126,12 @@ class Tree {
     explicit Tree(std::size_t budget_bytes);
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
-    ~Tree();
 
     NodeId root() const { return root_; }
     const Node& operator[](NodeId id) const { return node(id); }
     std::span<const Edge> edges(NodeId id) const { return edge_span(node(id)); }
+    // Whether the highest priors come first, and no child of an edge has been forgotten.
+    bool in_order(NodeId id) const { return node(id).in_order; }
     // The child that `edge` of `parent` leads to, no_node when there is none (any more).
     NodeId child(NodeId parent, const Edge& edge) const;
     double share_used() const;  // of the budget, 0..1
@@ -106,15 +142,22 @@ class Tree {
     // Makes the node on the first visit. no_node: full, withdraw and flip.
     NodeId enter(Edge& edge);
 
+    // What is known already stands.
     void mark(NodeId id, Ending ending);
+    // Forgets the end of the game there: it is to be searched all the same.
+    void unmark(NodeId id);
+    // The end of a path has just been marked as decided: marks what follows for those before it but
+    // the root (MCTS-solver, Winands et al. 2008). `lists_all`: the edges are all legal moves.
+    void prove(const Path& path, bool lists_all);
     // True for exactly one caller, who must then expand() or unclaim() the node.
     bool claim(NodeId id);
     void unclaim(NodeId id) { node(id).stage.store(Stage::fresh, std::memory_order_release); }
     // `priors`: one a move, or empty for equal ones. False: full, and the node is fresh again.
     bool expand(NodeId id, const engine::MoveList& moves, std::span<const float> priors);
 
-    // Ends a descent: records `value`, as the player to move at the path's end sees it.
-    void back_up(const Path& path, float value);
+    // Ends a descent: records `value`, as the player to move at the path's end sees it, and how
+    // likely a draw is.
+    void back_up(const Path& path, float value, float draws = 0);
     // Records in the edges of an expanded node what a rollout of `value`, as the mover sees it,
     // says of moves made later: `firsts` by move code as engine::RolloutResult, `mover` as there.
     void add_amaf(NodeId id, std::span<const std::int8_t> firsts, int mover, float value);
@@ -139,10 +182,12 @@ class Tree {
     bool active(NodeId id) const { return (id >= half_units_) == (active_half_ == 1); }
     NodeId allocate(std::size_t units, std::size_t reserve);
     NodeId copy(NodeId passive, std::size_t reserve);
+    bool settle(NodeId parent, const Node& child, bool lists_all);
     void activate(int half);
 
-    std::byte* base_ = nullptr;
-    std::size_t half_units_ = 0;
+    Memory memory_;
+    std::byte* base_;
+    std::size_t half_units_;
     int active_half_ = 0;
     std::size_t end_ = 0;           // of the active half
     std::size_t passive_used_ = 0;  // units

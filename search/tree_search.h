@@ -100,7 +100,16 @@ class TreeSearch {
     // Plays `move`, legal at the root, and keeps what the tree has below it.
     void advance(engine::Move move) {
         root_.play(move);
-        if (!tree_.advance(move)) tree_.clear();
+        if (!tree_.advance(move)) return tree_.clear();
+        // Whatever it is sure to come to, there is a move to choose.
+        const auto root = tree_.root();
+        if (tree_[root].decided() && !root_.legal_moves().empty()) tree_.unmark(root);
+    }
+    // The side that params' worth of a draw is meant for. Forgets the tree where that matters.
+    void favour(engine::Player player) {
+        if (favoured_ == player) return;
+        favoured_ = player;
+        if (params_.draw_score != 0) tree_.clear();
     }
     void flip() { tree_.flip(); }
 
@@ -126,16 +135,20 @@ class TreeSearch {
             std::visit([&](const auto& rule) { return descend(leaf, rule, first); }, rule_);
         if (!arrived) return tree_.withdraw(leaf.path), Gathered::full;
         const NodeId node = leaf.path.back();
-        if (const auto ending = ending_of(node, leaf.game); ending != Ending::none)
-            return tree_.back_up(leaf.path, value_of(ending)), Gathered::absorbed;
-        return prepare(leaf, node, share);
+        const auto ending = ending_of(leaf);
+        if (ending == Ending::none) return prepare(leaf, node, share);
+        const float value = value_of(ending, leaf.game.to_play());
+        tree_.back_up(leaf.path, value, ending == Ending::draw ? 1.0f : 0.0f);
+        return Gathered::absorbed;
     }
 
     // False when the tree is full: the value counts, but the leaf stays a leaf.
     bool absorb(Leaf<G>& leaf) {
         const bool fits = !leaf.expands || tree_.expand(leaf.path.back(), leaf.moves, leaf.priors);
+        leaf.value =
+            std::clamp(leaf.value + leaf.draws * draw_value(leaf.game.to_play()), -1.0f, 1.0f);
         if (std::holds_alternative<Rave>(rule_)) spread_amaf(leaf);
-        tree_.back_up(leaf.path, leaf.value);
+        tree_.back_up(leaf.path, leaf.value, leaf.draws);
         return fits;
     }
 
@@ -190,7 +203,7 @@ class TreeSearch {
     template <class SelectionRule>
     bool descend(Leaf<G>& leaf, const SelectionRule& rule, std::optional<engine::Move> first) {
         NodeId node = tree_.root();
-        while (tree_[node].expanded()) {
+        while (tree_[node].expanded() && (node == tree_.root() || !tree_[node].decided())) {
             Edge* edge = node == tree_.root()
                              ? leave_root(rule, first)
                              : select(tree_, node, rule, [](engine::Move) { return true; });
@@ -223,20 +236,36 @@ class TreeSearch {
         return moves;
     }
 
-    Ending ending_of(NodeId node, const G& game) {
+    Ending ending_of(const Leaf<G>& leaf) {
+        const NodeId node = leaf.path.back();
         auto ending = tree_[node].ending.load(std::memory_order_relaxed);
         if (ending != Ending::unknown) return ending;
-        const auto outcome = game.outcome();
-        ending = outcome == engine::Outcome::ongoing          ? Ending::none
-                 : outcome == engine::Outcome::draw           ? Ending::draw
-                 : outcome == engine::win_for(game.to_play()) ? Ending::win
-                                                              : Ending::loss;
+        const auto outcome = leaf.game.outcome();
+        ending = outcome == engine::Outcome::ongoing               ? Ending::none
+                 : outcome == engine::Outcome::draw                ? Ending::draw
+                 : outcome == engine::win_for(leaf.game.to_play()) ? Ending::win
+                                                                   : Ending::loss;
+        // A game that may be played on is searched at the root, where a move is asked for.
+        if (node == tree_.root() && !leaf.game.legal_moves().empty()) ending = Ending::none;
         tree_.mark(node, ending);
+        if (params_.solver && Node::decides(ending)) tree_.prove(leaf.path, lists_all());
         return ending;
     }
 
-    static float value_of(Ending ending) {
-        return ending == Ending::win ? 1.0f : ending == Ending::loss ? -1.0f : 0.0f;
+    // Whether sensible_moves() are all legal ones below the root as well.
+    bool lists_all() const {
+        constexpr bool leaves_out = requires(const G& game, engine::Move move) {
+            game.fills_own_eye(move);
+        };
+        return network_ || !leaves_out;
+    }
+
+    float draw_value(engine::Player mover) const {
+        return mover == favoured_ ? params_.draw_score : -params_.draw_score;
+    }
+    float value_of(Ending ending, engine::Player mover) const {
+        if (ending == Ending::draw) return draw_value(mover);
+        return ending == Ending::win ? 1.0f : -1.0f;
     }
 
     SearchParams params_;
@@ -245,6 +274,7 @@ class TreeSearch {
     G root_;
     Tree tree_;
     MoveFilter filter_;
+    engine::Player favoured_ = engine::Player::first;
 };
 
 }  // namespace search

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "search/analysis.h"
+#include "search/gumbel.h"
 #include "search/limits.h"
 #include "search/meeting.h"
 #include "search/tree_search.h"
@@ -24,6 +26,10 @@ struct Team {
     std::atomic<std::uint64_t> started = 0;      // simulations
     std::atomic<std::uint64_t> limit = endless;  // of them
     bool early_end = false;  // before the limit, once the best move can no longer be caught
+    std::uint64_t check_every = 256;   // simulations, whether it can be
+    bool meets_at_root = false;        // as soon as the root has its moves
+    std::atomic<bool> full = false;    // is the tree
+    std::optional<GumbelRoot> gumbel;  // with what moves to begin; changes at meetings only
     Meeting meeting;
 };
 
@@ -42,14 +48,14 @@ class Worker {
     void reset_counts() { simulations_ = steps_ = deepest_ = 0; }
 
     // Returns when the team stops, its limit is reached or the root has nothing to search.
-    // `flip` makes room in a full tree. Whatever the evaluator throws passes through, with no
-    // trace left in the tree.
-    template <class Flip>
-    void work(TreeSearch<G>& search, Team& team, Flip flip) {
+    // `meet` is what a meeting is for: it makes room in a full tree and prepares a new root.
+    // Whatever the evaluator throws passes through, with no trace left in the tree.
+    template <class Meet>
+    void work(TreeSearch<G>& search, Team& team, Meet meet) {
         const Membership membership(team.meeting);
         bool turn = false;  // taken and not used yet
         while (!told_to_stop(search, team)) {
-            if (team.meeting.called()) team.meeting.attend(flip);
+            if (team.meeting.called()) team.meeting.attend(meet);
             const bool over = exhausted(search) || !(turn = turn || take_turn(search, team));
             if (over) return;
             turn = !simulate(search, team);
@@ -75,17 +81,14 @@ class Worker {
     static bool exhausted(const TreeSearch<G>& search) {
         constexpr std::uint32_t most_visits = 0xfff00000;
         const Node& root = search.tree()[search.tree().root()];
-        const auto ending = root.ending.load(std::memory_order_relaxed);
-        return (ending != Ending::unknown && ending != Ending::none) ||
-               root.visits.load(std::memory_order_relaxed) > most_visits;
+        return root.decided() || root.visits.load(std::memory_order_relaxed) > most_visits;
     }
 
     static bool take_turn(const TreeSearch<G>& search, Team& team) {
-        constexpr std::uint64_t check_every = 256;
         const auto turn = team.started.fetch_add(1, std::memory_order_relaxed);
         const auto limit = team.limit.load(std::memory_order_relaxed);
         if (turn >= limit) return false;
-        const bool check = team.early_end && limit != Team::endless && turn % check_every == 0;
+        const bool check = team.early_end && limit != Team::endless && turn % team.check_every == 0;
         return !check || turn == 0 ||
                !settled(standing(search.tree(), search.filter()), limit - turn);
     }
@@ -99,7 +102,9 @@ class Worker {
         if (gathered == 0) return used;
         evaluate(search, std::span(leaves_).first(gathered));
         for (std::size_t i = 0; i < gathered; ++i) {
-            if (!search.absorb(leaves_[i])) team.meeting.call();
+            if (!search.absorb(leaves_[i])) call_for_room(team);
+            const bool new_root = leaves_[i].expands && leaves_[i].path.size() == 1;
+            if (new_root && team.meets_at_root) team.meeting.call();
             count(leaves_[i]);
         }
         return true;
@@ -108,17 +113,23 @@ class Worker {
     // One descent; false when nothing came of it.
     bool gather(TreeSearch<G>& search, Team& team, std::size_t& gathered) {
         Leaf<G>& leaf = leaves_[gathered];
-        switch (search.gather(leaf, evaluator_->shares_leaves())) {
+        const auto first = team.gumbel ? std::optional(team.gumbel->next()) : std::nullopt;
+        switch (search.gather(leaf, evaluator_->shares_leaves(), first)) {
             case Gathered::absorbed:
                 return count(leaf);
             case Gathered::taken:
                 return false;
             case Gathered::full:
-                return team.meeting.call(), false;
+                return call_for_room(team), false;
             case Gathered::leaf:
                 break;
         }
         return ++gathered, true;
+    }
+
+    static void call_for_room(Team& team) {
+        team.full = true;
+        team.meeting.call();
     }
 
     void evaluate(TreeSearch<G>& search, std::span<Leaf<G>> leaves) {

@@ -33,16 +33,19 @@ class InProcessPlayer final : public Player {
         if (!simulations_ && setup.time.unlimited)
             engine::fail("an internal player needs a time control or a number of visits");
         searcher_.set_position(start_(setup));
+        ply_ = 0;
     }
 
     void play(engine::Player, std::string_view text, Deadline) override {
         const auto move = searcher_.position().move_from_text(text);
         if (!move) engine::fail("internal player: illegal move {}", text);
         searcher_.advance(*move);
+        ++ply_;
     }
 
     Answer think(engine::Player mover, const Clocks& clocks, Deadline deadline) override {
         search::Limits limits;
+        limits.ply = ply_++;
         limits.simulations = simulations_;
         if (!simulations_) limits.clock = clocks[static_cast<std::size_t>(mover)];
         const auto best = best_move(limits, deadline);
@@ -79,6 +82,7 @@ class InProcessPlayer final : public Player {
     std::optional<std::uint64_t> simulations_;
     Start start_;
     std::stop_token stop_;
+    int ply_ = 0;  // moves of the game so far
     std::mutex mutex_;
     std::condition_variable_any changed_;
 };

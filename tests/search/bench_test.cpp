@@ -18,9 +18,19 @@ TEST(Bench, FiguresHaveStableNames) {
         EXPECT_GT(figure.value, 0) << figure.name;
         names.push_back(figure.name);
     }
-    const std::vector<std::string> expected = {
-        "signature", "go9_uct_sims", "go19_uct_sims",        "chess_sims", "shogi_sims",
-        "go9_sims",  "go19_sims",    "chess_sims_2_threads", "node_bytes", "edge_bytes"};
+    const std::vector<std::string> expected = {"signature",
+                                               "go9_uct_sims",
+                                               "go19_uct_sims",
+                                               "chess_sims",
+                                               "chess_sims_2_threads",
+                                               "shogi_sims",
+                                               "shogi_sims_2_threads",
+                                               "go9_sims",
+                                               "go9_sims_2_threads",
+                                               "go19_sims",
+                                               "go19_sims_2_threads",
+                                               "node_bytes",
+                                               "edge_bytes"};
     EXPECT_EQ(names, expected);
 }
 

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "tests/search/tictactoe.h"
 
 namespace search {
@@ -40,24 +43,24 @@ TEST(TreeSearch, ADescentBeginsWithTheMoveThatWasGiven) {
     EXPECT_EQ(search.tree()[search.tree().root()].visits, 6u);
 }
 
+std::vector<float> root_priors(const TreeSearch<TicTacToe>& search) {
+    std::vector<float> priors;
+    for (const Edge& edge : search.tree().edges(search.tree().root()))
+        priors.push_back(edge.prior());
+    return priors;
+}
+
 TEST(TreeSearch, NoiseChangesThePriorsAndNotTheirSum) {
     TreeSearch<TicTacToe> search(small(), true);
-    Leaf<TicTacToe> leaf;
-    ASSERT_EQ(search.gather(leaf, false), Gathered::leaf);
-    absorb_evenly(search, leaf);
+    EXPECT_EQ(first_move(search, 0), std::nullopt);
     engine::Random random(1);
     search.mix_root_noise(random, 0, 0.3f);
-    for (const Edge& edge : search.tree().edges(search.tree().root()))
-        EXPECT_NEAR(edge.prior(), 1 / 9.0f, 1e-4);
+    for (const float prior : root_priors(search)) EXPECT_NEAR(prior, 1 / 9.0f, 1e-4);
     search.mix_root_noise(random, 0.25f, 0.3f);
-    float sum = 0, most = 0;
-    for (const Edge& edge : search.tree().edges(search.tree().root())) {
-        EXPECT_GE(edge.prior(), 0.75f / 9 - 1e-4f);
-        sum += edge.prior();
-        most = std::max(most, edge.prior());
-    }
-    EXPECT_NEAR(sum, 1, 1e-2);
-    EXPECT_GT(most, 0.14f);
+    const auto priors = root_priors(search);
+    EXPECT_GE(*std::min_element(priors.begin(), priors.end()), 0.75f / 9 - 1e-4f);
+    EXPECT_GT(*std::max_element(priors.begin(), priors.end()), 0.14f);
+    EXPECT_NEAR(std::accumulate(priors.begin(), priors.end(), 0.0f), 1, 1e-2);
 }
 
 }  // namespace

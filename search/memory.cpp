@@ -1,0 +1,29 @@
+#include "search/memory.h"
+
+#include <sys/mman.h>
+
+#include "engine/base/error.h"
+
+namespace search {
+
+namespace {
+
+std::byte* map(std::size_t bytes) {
+    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (memory == MAP_FAILED) return nullptr;
+    // Tables are written all over: pages of 4 KB would each cost a fault.
+    ::madvise(memory, bytes, MADV_HUGEPAGE);
+    return static_cast<std::byte*>(memory);
+}
+
+}  // namespace
+
+Memory::Memory(std::size_t bytes, std::size_t least) : size_(bytes) {
+    while (!(data_ = map(size_)) && size_ / 2 >= least) size_ /= 2;
+    if (!data_) engine::fail("out of memory: cannot reserve {} bytes for the search", size_);
+}
+
+Memory::~Memory() { ::munmap(data_, size_); }
+
+}  // namespace search
