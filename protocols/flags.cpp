@@ -30,8 +30,11 @@ void add_network_flags(CLI::App& app, NetworkFlags& flags) {
 }
 
 void check_method(const search::SearchParams& params, const NetworkFlags& flags) {
-    if (params.method == search::Method::puct && flags.weights.empty())
-        engine::fail("--search puct needs a network: --weights FILE");
+    const bool needs_network =
+        params.method == search::Method::puct || params.method == search::Method::gumbel;
+    if (needs_network && flags.weights.empty())
+        engine::fail("--search {} needs a network: --weights FILE",
+                     search::method_names[static_cast<std::size_t>(params.method)]);
 }
 
 nn::Precision parse_precision(std::string_view text) {

@@ -119,6 +119,7 @@ const Gtp::Command Gtp::table_[] = {
     {"sanban-variation", &Gtp::gogui_variation, "", "principal variation"},
     {"kgs-chat", &Gtp::chat, "KIND NAME [MESSAGE]...", "answer a chat message"},
     {"kgs-game_over", &Gtp::nothing, "", "the server's word that the game has ended"},
+    {"level", &Gtp::level, "N", "strength from 0 to 20, which is full"},
     {"get_random_seed", &Gtp::random_seed, "", "seed of all randomness"},
     {"set_random_seed", &Gtp::set_random_seed, "SEED", "seed of all randomness"},
     {"lz-setoption", &Gtp::set_option, "name NAME... value VALUE", "options by Leela Zero's names"},

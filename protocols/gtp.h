@@ -89,6 +89,7 @@ class Gtp {
     std::string cpu_time(Words&);
     std::string nothing(Words&);
     std::string chat(Words& words);
+    std::string level(Words& words);
     std::string random_seed(Words&);
     std::string set_random_seed(Words& words);
     std::string set_option(Words& words);

@@ -46,6 +46,7 @@ int run_gtp_from(Arguments arguments, std::string_view first_line) {
     check_method(params, network);
     settings.weights = network.weights;
     settings.precision = network.precision;
+    end_on_signals();
     Output output(std::cout);
     Gtp gtp(settings, params, output);
     if (gtp.handle(first_line)) gtp.serve(std::cin);

@@ -63,6 +63,15 @@ constexpr std::pair<std::string_view, std::string_view> search_names[] = {
     {"numSearchThreads", "threads"},
     {"Maximum Memory Use (MiB)", "memory"},
     {"Lagbuffer", "lag"},
+    {"cpuctExploration", "cpuct"},
+    {"cpuctExplorationBase", "cpuct-base"},
+    {"fpuReductionMax", "fpu-reduction"},
+    {"rootFpuReductionMax", "root-fpu-reduction"},
+    {"numVirtualLossesPerThread", "virtual-loss"},
+    {"nnPolicyTemperature", "policy-temperature"},
+    {"rootPolicyTemperature", "root-policy-temperature"},
+    {"chosenMoveTemperature", "temperature"},
+    {"useLcbForSelection", "lower-bound"},
 };
 
 std::string_view row_of(std::string_view name) {
@@ -140,6 +149,11 @@ std::string Gtp::chat(Words& words) {
     return fmt::format("I am {} {}, playing by tree search", settings_.name, SANBAN_VERSION);
 }
 
+std::string Gtp::level(Words& words) {
+    change_params("level", words.take("the level"));
+    return "";
+}
+
 std::string Gtp::random_seed(Words&) { return fmt::format("{}", session_.params().seed); }
 
 std::string Gtp::set_random_seed(Words& words) {
@@ -176,7 +190,9 @@ std::string Gtp::list_params(Words&) {
         if (!parameter.kata.empty()) text.append(parameter.kata).append("\n");
     for (const auto& row : engine::option_rows(session_.params()))
         text.append(row.name).append("\n");
-    return text + "numSearchThreads";
+    for (const auto& [foreign, row] : search_names)
+        if (foreign.find(' ') == foreign.npos) text.append(foreign).append("\n");
+    return text.substr(0, text.size() - 1);
 }
 
 std::string Gtp::all_params(Words&) {

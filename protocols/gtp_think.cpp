@@ -78,6 +78,7 @@ go::Go Gtp::root_for(Player player) const {
 
 search::Limits Gtp::move_limits(Player player) {
     search::Limits limits;
+    limits.ply = now().move_count();
     if (settings_.simulations > 0) limits.simulations = settings_.simulations;
     if (settings_.visits > 0) {
         session_.searcher().set_position(root_for(player));

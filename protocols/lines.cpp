@@ -1,5 +1,9 @@
 #include "protocols/lines.h"
 
+#include <unistd.h>
+
+#include <csignal>
+
 namespace protocols {
 
 bool read_line(std::istream& in, Line& line, std::size_t most) {
@@ -20,6 +24,10 @@ bool read_line(std::istream& in, Line& line, std::size_t most) {
     }
     in.setstate(any ? std::ios::eofbit : std::ios::eofbit | std::ios::failbit);
     return any;
+}
+
+void end_on_signals() {
+    for (const int signal : {SIGTERM, SIGINT}) std::signal(signal, [](int) { ::_exit(0); });
 }
 
 }  // namespace protocols

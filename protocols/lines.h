@@ -21,6 +21,10 @@ struct Line {
 // False at the end of input. Of a line longer than `most` bytes the rest is skipped.
 bool read_line(std::istream& in, Line& line, std::size_t most = longest_line);
 
+// From now on SIGTERM and SIGINT end the process at once with status 0. What was answered has been
+// written, whole lines at a time; a protocol has nothing else to save.
+void end_on_signals();
+
 class Output {
    public:
     explicit Output(std::ostream& out) : out_(out) {}

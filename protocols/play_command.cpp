@@ -26,6 +26,7 @@ namespace {
 
 struct PlayFlags {
     search::SearchParams params;
+    NetworkFlags network;
     TerminalSettings terminal;
     std::string game = "go", colour = "first", rules = "chinese";
     int size = 9;
@@ -46,6 +47,11 @@ std::string choose_go_move(const go::Go& game, GoJudge& judge, const search::Ana
     return game.move_to_text(best == picture.moves.end() ? go::Go::pass : best->move);
 }
 
+void load_network(Session& session, const PlayFlags& flags) {
+    if (!flags.network.weights.empty())
+        session.load_network(flags.network.weights, flags.network.precision);
+}
+
 void save_sgf(const GameSession<go::Go>& session, const std::string& result,
               const std::string& path) {
     std::vector<go::sgf::Turn> turns;
@@ -59,6 +65,7 @@ int play_go(const PlayFlags& flags) {
     GameSession<go::Go> session(flags.params);
     session.restart(
         go::Go(flags.size, go::Komi::from_points(flags.komi), go::rules_from_text(flags.rules)));
+    load_network(session, flags);
     GoJudge judge(flags.params);
     TerminalView view;
     view.board = [&] { return go::diagram(session.now()); };
@@ -99,6 +106,7 @@ std::string saved(std::span<const shogi::Shogi> states, const std::string& path,
 template <engine::Game G>
 int play_board_game(const PlayFlags& flags, TerminalView view) {
     GameSession<G> session(flags.params);
+    load_network(session, flags);
     view.board = [&] { return diagram(session.now()); };
     view.result = [&]() -> std::string {
         const auto outcome = session.outcome();
@@ -128,6 +136,7 @@ int run_play(Arguments arguments) {
     PlayFlags flags;
     flags.params.threads = default_threads();
     add_search_flags(app, flags.params);
+    add_network_flags(app, flags.network);
     app.add_option("--game", flags.game, "what to play")
         ->check(CLI::IsMember({"go", "chess", "shogi"}))
         ->capture_default_str();
@@ -144,6 +153,7 @@ int run_play(Arguments arguments) {
     app.add_option("--komi", flags.komi, "of Go")->capture_default_str();
     app.add_option("--rules", flags.rules, "of Go, by name or as JSON")->capture_default_str();
     if (const auto status = parse_flags(app, arguments)) return *status;
+    check_method(flags.params, flags.network);
     flags.terminal.human = flags.colour == "first" ? engine::Player::first : engine::Player::second;
     if (flags.game == "go") return play_go(flags);
     if (flags.game == "chess")

@@ -205,7 +205,9 @@ class GameSession final : public Session {
 
     void start(const search::Limits& limits, Report report, Report done) override {
         searcher_.set_position(now());
-        searcher_.start(limits, std::move(report), std::move(done));
+        auto with_ply = limits;
+        with_ply.ply = static_cast<int>(games_.size()) - 1;
+        searcher_.start(with_ply, std::move(report), std::move(done));
     }
     void stop() override { searcher_.stop(); }
     void wait() override { searcher_.wait(); }

@@ -39,20 +39,6 @@ std::pair<std::string, std::string> name_and_value(std::string_view arguments) {
     return {name, value};
 }
 
-template <class T>
-T number_within(std::string_view name, std::string_view text, T least, T most) {
-    const T value = engine::parse_number<T>(text);
-    if (value < least || value > most)
-        engine::fail("{} must lie in {}..{}, not {}", name, least, most, text);
-    return value;
-}
-
-bool yes_or_no(std::string_view name, std::string_view text) {
-    if (text != "true" && text != "false")
-        engine::fail("{} must be true or false, not {}", name, text);
-    return text == "true";
-}
-
 }  // namespace
 
 int centipawns(float value) {
@@ -83,54 +69,6 @@ std::vector<Uci::Command> Uci::commands() const {
             {"gameover", &Uci::game_over},
             {"debug", &Uci::ignore},
             {"register", &Uci::ignore}};
-}
-
-std::vector<UciOption> Uci::common_options() {
-    const auto number = [this](std::string name, std::string_view row) {
-        const auto rows = engine::option_rows(session_->params());
-        const auto found =
-            std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.name == row; });
-        return UciOption{std::move(name),
-                         fmt::format("type spin default {} min {} max {}", found->value,
-                                     found->least, found->most),
-                         [this, row](std::string_view text) {
-                             change([&](auto& params) { engine::set_option(params, row, text); });
-                         }};
-    };
-    std::vector<UciOption> options{
-        number("Threads", "threads"), number(std::string(dialect_.hash_option), "memory"),
-        number(dialect_.knows_resignation ? "NetworkDelay" : "Move Overhead", "lag"),
-        number("Seed", "seed")};
-    options.push_back(
-        {"VerboseMoveStats", "type check default false",
-         [this](std::string_view text) { verbose_ = yes_or_no("VerboseMoveStats", text); }});
-    options.push_back({"WeightsFile", "type string default <empty>", [this](std::string_view text) {
-                           set_network(text == "<empty>" ? "" : std::string(text), precision_);
-                       }});
-    options.push_back(
-        {"MultiPV", "type spin default 1 min 1 max 256",
-         [this](std::string_view text) { multi_pv_ = number_within("MultiPV", text, 1, 256); }});
-    options.push_back({std::string(dialect_.ponder_option), "type check default true",
-                       [this](std::string_view text) {
-                           offers_ponder_ = yes_or_no(dialect_.ponder_option, text);
-                       }});
-    options.push_back({dialect_.knows_resignation ? "ClearHash" : "Clear Hash", "type button",
-                       [this](std::string_view) { session_->new_game(); }});
-    if (dialect_.knows_resignation)
-        options.push_back({"ResignThreshold", "type spin default 0 min 0 max 1000",
-                           [this](std::string_view text) {
-                               resign_per_mille_ = number_within("ResignThreshold", text, 0, 1000);
-                           }});
-    else
-        options.push_back(
-            {"UCI_AnalyseMode", "type check default false", [this](std::string_view text) {
-                 const bool analyse = yes_or_no("UCI_AnalyseMode", text);
-                 change([&](auto& params) { params.early_end = !analyse; });
-             }});
-    options.push_back({"UCI_ShowWDL", "type check default false", [this](std::string_view text) {
-                           shows_wdl_ = yes_or_no("UCI_ShowWDL", text);
-                       }});
-    return options;
 }
 
 void Uci::change(const std::function<void(search::SearchParams&)>& edit) {
@@ -409,22 +347,36 @@ std::string Uci::info(const search::Analysis& picture, std::size_t rank) const {
     const auto rate =
         picture.simulations * 1000 / static_cast<std::uint64_t>(std::max<std::int64_t>(time, 1));
     return fmt::format(
-        "info depth {} seldepth {} time {} nodes {} score cp {}{} hashfull {} nps {} multipv {} "
+        "info depth {} seldepth {} time {} nodes {} score {}{}{} hashfull {} nps {} multipv {} "
         "pv {}",
         std::max(picture.depth, 1), std::max(picture.deepest, 1), time, picture.simulations,
-        centipawns(move.value), wdl(picture, move.value),
+        score(move), wdl(picture, move), moves_left(picture),
         static_cast<int>(1000 * picture.memory_used), rate, rank + 1,
         session_->line_to_text(move.variation));
 }
 
-// In per mille, and in all 1000: draws as often as among the rollouts, the rest by the value.
-std::string Uci::wdl(const search::Analysis& picture, float value) const {
+// Mates in moves over UCI, in plies over USI; negative where the mover is mated.
+std::string Uci::score(const search::MoveAnalysis& move) const {
+    if (!move.sure || *move.sure == 0) return fmt::format("cp {}", centipawns(move.value));
+    const int plies = *move.sure;
+    if (dialect_.asks_for_checkmate) return fmt::format("mate {}", plies);
+    return fmt::format("mate {}", plies > 0 ? (plies + 1) / 2 : plies / 2);
+}
+
+// In per mille, and in all 1000: draws as often as expected, the rest by the value without them.
+std::string Uci::wdl(const search::Analysis& picture, const search::MoveAnalysis& move) const {
     if (!shows_wdl_) return {};
     const auto whole = [](float share) { return static_cast<int>(std::lround(1000 * share)); };
-    const int draws = whole(std::clamp(picture.draws, 0.0f, 1 - std::abs(value)));
+    const float value = move.value - move.draws * picture.draw_score;
+    const int draws = whole(std::clamp(move.draws, 0.0f, 1 - std::min(std::abs(value), 1.0f)));
     const int decided = 1000 - draws;
     const int wins = std::clamp((decided + whole(value)) / 2, 0, decided);
     return fmt::format(" wdl {} {} {}", wins, draws, decided - wins);
+}
+
+std::string Uci::moves_left(const search::Analysis& picture) const {
+    if (!shows_moves_left_ || picture.plies_left <= 0) return {};
+    return fmt::format(" movesleft {}", std::lround((picture.plies_left + 1) / 2));
 }
 
 std::string Uci::best_move(const search::Analysis& picture) const {

@@ -67,6 +67,9 @@ class Uci {
 
     std::vector<Command> commands() const;
     std::vector<UciOption> common_options();
+    UciOption row_option(std::string name, std::string_view row);
+    void add_strength(std::vector<UciOption>& options);
+    void limit_strength();
 
     void hello(std::string_view);
     void is_ready(std::string_view);
@@ -91,7 +94,9 @@ class Uci {
     void end_think();
     void load_network();
     std::string info(const search::Analysis& picture, std::size_t rank) const;
-    std::string wdl(const search::Analysis& picture, float value) const;
+    std::string score(const search::MoveAnalysis& move) const;
+    std::string wdl(const search::Analysis& picture, const search::MoveAnalysis& move) const;
+    std::string moves_left(const search::Analysis& picture) const;
     std::string best_move(const search::Analysis& picture) const;
     static search::MateLimits mate_limits(const GoCommand& go);
     void change(const std::function<void(search::SearchParams&)>& edit);
@@ -109,7 +114,9 @@ class Uci {
 
     int multi_pv_ = 1;
     bool offers_ponder_ = true;
-    bool shows_wdl_ = false;
+    bool shows_wdl_ = false, shows_moves_left_ = false;
+    bool limits_strength_ = false;
+    int elo_ = search::strongest_elo;
     int resign_per_mille_ = 0;
 
     // The present think.

@@ -31,6 +31,7 @@ void add_flags(CLI::App& app, UciFlags& flags) {
 
 int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session> session,
           std::vector<UciOption> extra, std::string_view first_line) {
+    end_on_signals();
     Output output(std::cout);
     Uci uci(dialect, std::move(session), flags.name, output, std::move(extra));
     if (!flags.network.weights.empty())
