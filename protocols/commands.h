@@ -18,6 +18,7 @@ int run_convert(Arguments arguments);
 int run_bench(Arguments arguments);
 int run_gtp(Arguments arguments);
 int run_play(Arguments arguments);
+int run_learn(Arguments arguments);
 int run_match(Arguments arguments);
 int run_perft(Arguments arguments);
 int run_show(Arguments arguments);

@@ -20,6 +20,7 @@ constexpr Subcommand subcommands[] = {
     {"perft", "count the positions below one", protocols::run_perft},
     {"solve", "look for the answers of problems", protocols::run_solve},
     {"match", "play engines against each other", protocols::run_match},
+    {"learn", "make weights from recorded games", protocols::run_learn},
     {"train", "make a network of a game from nothing", protocols::run_train},
 };
 

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -14,6 +13,7 @@
 #include "engine/games.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "protocols/setting_flags.h"
 #include "protocols/stop_on_signal.h"
 #include "selfplay/training/run.h"
 
@@ -23,22 +23,20 @@ namespace {
 
 using selfplay::training::Bounds;
 using selfplay::training::Settings;
-using selfplay::training::Wanted;
 
 struct Input {
     std::filesystem::path folder;
-    Wanted wanted;
-    std::optional<std::string> file;
+    std::optional<std::string> game, preset;
     Bounds bounds;
     int threads = default_threads(), nice = 0;
-    std::map<std::string, std::string> changes;
+    SettingTexts settings;
 };
 
 void add_run_flags(CLI::App& app, Input& input) {
-    app.add_option("--game", input.wanted.game, "go (unless said otherwise), chess or shogi");
+    app.add_option("--game", input.game, "go (unless said otherwise), chess or shogi");
     app.add_option("--dir", input.folder, "folder of the run; one that is there is gone on with")
         ->required();
-    app.add_option("--preset", input.wanted.preset,
+    app.add_option("--preset", input.preset,
                    "what all settings begin as: laptop (unless said otherwise), alphazero, "
                    "alphagozero");
     app.add_option("--minutes", input.bounds.minutes, "end after so many of them");
@@ -51,30 +49,16 @@ void add_run_flags(CLI::App& app, Input& input) {
         ->capture_default_str();
 }
 
-// A flag for every setting of every table.
-void add_settings(CLI::App& app, Input& input) {
-    for (const auto& row : selfplay::training::setting_rows(Settings())) {
-        const std::string name(row.name);
-        std::string help(row.help);
-        if (!row.least.empty()) help += " (" + row.least + ".." + row.most + ")";
-        app.add_option("--" + name, input.changes[name], help)
-            ->default_str(row.value)
-            ->group("Settings, kept in DIR/settings.json; defaults are laptop's");
-    }
-}
-
 void be_nice(int nice) {
     errno = 0;
     if (nice > 0 && ::nice(nice) == -1 && errno != 0)
         engine::fail("--nice {} is not allowed here", nice);
 }
 
-Settings settings_of(Input& input) {
-    auto& wanted = input.wanted;
-    for (const auto& [name, text] : input.changes)
-        if (!text.empty()) wanted.changes.emplace_back(name, text);
-    if (const auto& size = input.changes["size"]; !size.empty())
-        wanted.size = engine::parse_number<int>(size);
+Settings settings_of(const Input& input) {
+    auto wanted = wanted_of(input.settings);
+    wanted.game = input.game;
+    wanted.preset = input.preset;
     return selfplay::training::settings_for(input.folder, wanted);
 }
 
@@ -96,7 +80,7 @@ int run_train(Arguments arguments) {
         "sanban train");
     Input input;
     add_run_flags(app, input);
-    add_settings(app, input);
+    add_setting_flags(app, input.settings);
     if (const auto status = parse_flags(app, arguments)) return *status;
     const auto settings = settings_of(input);
     be_nice(input.nice);

@@ -26,6 +26,7 @@ class RunFolder {
     std::filesystem::path checkpoint() const { return path_ / "checkpoint.safetensors"; }
     std::filesystem::path old_checkpoint() const { return path_ / "checkpoint-old.safetensors"; }
     std::filesystem::path latest() const { return path_ / "latest.safetensors"; }
+    std::filesystem::path candidate() const { return path_ / "candidate.safetensors"; }
     std::filesystem::path metrics() const { return path_ / "metrics.jsonl"; }
     std::filesystem::path ladder() const { return path_ / "ladder.jsonl"; }
     std::filesystem::path snapshots() const { return path_ / "snapshots"; }

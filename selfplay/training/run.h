@@ -24,8 +24,10 @@
 #include "selfplay/records/segment.h"
 #include "selfplay/training/crew.h"
 #include "selfplay/training/journal.h"
+#include "selfplay/training/ladder.h"
 #include "selfplay/training/progress.h"
 #include "selfplay/training/replay.h"
+#include "selfplay/training/report.h"
 #include "selfplay/training/settings.h"
 #include "selfplay/training/student.h"
 
@@ -63,7 +65,10 @@ class Run {
     void play(const std::stop_token& stop);
     void record(std::vector<records::Game> games);
     void learn(const std::stop_token& stop);
-    void publish();
+    void publish(const std::stop_token& stop);
+    bool passes_gate(const nn::Graph& graph, const std::stop_token& stop);
+    void measure(const std::stop_token& stop);
+    void write_report();
     Quality held_out_quality();
     void grow_simulations();
 
@@ -72,7 +77,6 @@ class Run {
     }
     bool over(const std::stop_token& stop) const;
     Standing standing() const;
-    int steps_at_once() const { return std::max(1, 2048 / settings_.learn.batch); }
     double samples_due() const {
         return double{settings_.run.ratio} * static_cast<double>(new_positions_) -
                static_cast<double>(samples_) - forgiven_;
@@ -89,6 +93,7 @@ class Run {
     engine::Random random_;
     Progress progress_;
     int threads_;
+    Ladder ladder_;
     std::unique_ptr<Crew<G>> crew_;
 
     Clock::time_point started_ = Clock::now();
@@ -97,7 +102,11 @@ class Run {
     std::uint64_t new_positions_ = 0, samples_ = 0;
     double forgiven_ = 0;  // samples
     double learn_seconds_ = 0;
-    double owed_play_ = 0;        // seconds that the actors are to have before the learner is next
+    double owed_play_ = 0;  // seconds that the actors are to have before the learner is next
+    int burst_ = 1;         // steps that the learner takes in one turn
+    double measure_seconds_ = 0;
+    double reported_ = -1;  // second of the run
+    bool measures_ = true;
     std::int64_t published_ = 0;  // step
 };
 
@@ -116,6 +125,7 @@ Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int t
                             static_cast<std::uint64_t>(student_.steps()))),
       progress_(bounds),
       threads_(threads),
+      ladder_(folder_, settings, threads),
       state_(folder_.state()),
       published_(student_.steps()) {
     keep_settings(folder, settings);
@@ -190,16 +200,21 @@ void Run<G>::run(const std::stop_token& stop) {
     while (!over(stop)) {
         play(stop);
         if (!over(stop)) learn(stop);
+        if (!over(stop)) measure(stop);
+        const double seconds = standing().state.seconds;
+        if (reported_ < 0 || seconds >= reported_ + 60.0 * settings_.run.report_minutes)
+            write_report();
     }
-    if (student_.steps() > published_) publish();
+    if (student_.steps() > published_) publish(stop);
     folder_.keep(standing().state);
+    write_report();
 }
 
 // Until enough positions are new and the actors have had their share of the time.
 template <engine::Encoded G>
 void Run<G>::play(const std::stop_token& stop) {
     const auto begun = Clock::now();
-    const double wanted = double{1} * steps_at_once() * settings_.learn.batch;
+    const double wanted = double{1} * burst_ * settings_.learn.batch;
     const auto enough = [&] {
         return since(begun) >= owed_play_ && samples_due() >= wanted &&
                state_.games >= static_cast<std::uint64_t>(settings_.run.first_games) &&
@@ -234,14 +249,17 @@ void Run<G>::record(std::vector<records::Game> games) {
 template <engine::Encoded G>
 void Run<G>::learn(const std::stop_token& stop) {
     const auto begun = Clock::now();
-    for (int i = 0; i < steps_at_once() && !stop.stop_requested(); ++i) {
+    for (int i = 0; i < burst_ && !stop.stop_requested(); ++i) {
         student_.learn(replay_.draw(settings_.learn.batch, student_.terms(), random_));
         samples_ += static_cast<std::uint64_t>(settings_.learn.batch);
     }
     // What the learner had no time for is forgiven, so that the debt does not grow without end.
-    const double most = 4.0 * steps_at_once() * settings_.learn.batch;
+    const double most = 4.0 * burst_ * settings_.learn.batch;
     forgiven_ += std::max(0.0, samples_due() - most);
-    if (student_.steps() >= published_ + settings_.run.refresh) publish();
+    // Turns of about a second: pausing the actors costs little then, and weights stay fresh.
+    if (since(begun) < 0.5) burst_ = std::min(2 * burst_, settings_.run.refresh);
+    if (since(begun) > 2) burst_ = std::max(1, burst_ / 2);
+    if (student_.steps() >= published_ + settings_.run.refresh) publish(stop);
     const double seconds = since(begun), share = double{settings_.run.learner_share};
     learn_seconds_ += seconds;
     owed_play_ = seconds * (1 - share) / share;
@@ -261,13 +279,15 @@ typename Run<G>::Source Run<G>::published_network() {
 }
 
 template <engine::Encoded G>
-void Run<G>::publish() {
+void Run<G>::publish(const std::stop_token& stop) {
     constexpr int norm_samples = 1024;
     student_.save();
-    const auto graph = student_.playable(replay_.draw(norm_samples, student_.terms(), random_));
-    nn::save(graph, folder_.latest());
-    crew_->set_network(playing(graph), static_cast<std::uint64_t>(student_.steps()));
     published_ = student_.steps();
+    const auto graph = student_.playable(replay_.draw(norm_samples, student_.terms(), random_));
+    if (!settings_.run.gate || passes_gate(graph, stop)) {
+        nn::save(graph, folder_.latest());
+        crew_->set_network(playing(graph), static_cast<std::uint64_t>(student_.steps()));
+    }
     grow_simulations();
     auto entry = progress_.take_entry(standing());
     entry.learned = student_.take_quality();
@@ -275,6 +295,42 @@ void Run<G>::publish() {
     entry.window = replay_.games();
     progress_.set_quality(entry.held_out);
     journal_.append(entry);
+}
+
+template <engine::Encoded G>
+bool Run<G>::passes_gate(const nn::Graph& graph, const std::stop_token& stop) {
+    nn::save(graph, folder_.candidate());
+    const auto verdict = judge(settings_, folder_.latest(), folder_.candidate(), threads_, stop);
+    say_(fmt::format("gate: step {} scored {:.1f} % of {} games and {}", student_.steps(),
+                     100 * verdict.tally.score(), verdict.tally.games(),
+                     verdict.passed ? "takes over" : "does not take over"));
+    return verdict.passed;
+}
+
+// A pair of games where measuring has had less than its share of the time.
+template <engine::Encoded G>
+void Run<G>::measure(const std::stop_token& stop) {
+    const double share = double{settings_.run.ladder_share};
+    if (!measures_ || share <= 0 || measure_seconds_ > share * since(started_)) return;
+    const auto begun = Clock::now();
+    try {
+        const double seconds = standing().state.seconds;
+        if (ladder_.wants_snapshot(seconds)) ladder_.keep(student_.steps(), seconds);
+        ladder_.measure(stop);
+    } catch (const engine::Error& error) {
+        say_(fmt::format("no more games to measure strength: {}", error.what()));
+        measures_ = false;
+    }
+    measure_seconds_ += since(begun);
+}
+
+template <engine::Encoded G>
+void Run<G>::write_report() {
+    reported_ = standing().state.seconds;
+    const auto* const game = replay_.lessons().newest();
+    engine::write_file(folder_.report(),
+                       report_html({settings_, journal_.entries(), ladder_.rungs(),
+                                    game ? sample_of<G>(*game) : SampleGame{}}));
 }
 
 template <engine::Encoded G>

@@ -65,7 +65,7 @@ struct RunSettings {
             Option<P, float>{"ladder-share", &P::ladder_share, 0, 0.5f,
                              "of the time that goes to games that measure strength"},
             Option<P, int>{"snapshot-minutes", &P::snapshot_minutes, 1, 100'000,
-                           "between two networks that are kept and measured"},
+                           "at most between two networks that are kept and measured"},
             Option<P, int>{"ladder-simulations", &P::ladder_simulations, 1, 100'000,
                            "of our moves in games that measure strength"},
             Option<P, int>{"report-minutes", &P::report_minutes, 1, 10'000,

@@ -116,7 +116,7 @@ Settings settings_from_json(std::string_view text) {
 Settings settings_for(const std::filesystem::path& folder, const Wanted& wanted) {
     const auto file = file_in(folder);
     Settings settings, old;
-    const bool resumed = std::filesystem::exists(file);
+    const bool resumed = !folder.empty() && std::filesystem::exists(file);
     if (resumed) {
         try {
             old = settings_from_json(engine::read_file(file));

@@ -45,7 +45,8 @@ std::string to_json(const Settings& settings);
 Settings settings_from_json(std::string_view text);
 
 // The settings in a folder of a run, `changes` (name and value) on top of them; fails when these
-// would make another network or game of it. A folder without settings gets those of the preset.
+// would make another network or game of it. A folder without settings, or no folder, has those of
+// the preset.
 struct Wanted {
     std::optional<std::string> game, preset;
     std::optional<int> size;

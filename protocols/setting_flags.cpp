@@ -1,0 +1,26 @@
+#include "protocols/setting_flags.h"
+
+namespace protocols {
+
+void add_setting_flags(CLI::App& app, SettingTexts& texts) {
+    for (const auto& row : selfplay::training::setting_rows({})) {
+        const std::string name(row.name);
+        std::string help(row.help);
+        if (!row.least.empty()) help += " (" + row.least + ".." + row.most + ")";
+        app.add_option("--" + name, texts[name], help)
+            ->default_str(row.value)
+            ->group("Settings; defaults are those of the preset laptop");
+    }
+}
+
+selfplay::training::Wanted wanted_of(const SettingTexts& texts) {
+    selfplay::training::Wanted wanted;
+    for (const auto& [name, text] : texts) {
+        if (text.empty()) continue;
+        wanted.changes.emplace_back(name, text);
+        if (name == "size") wanted.size = engine::parse_number<int>(text);
+    }
+    return wanted;
+}
+
+}  // namespace protocols

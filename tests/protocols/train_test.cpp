@@ -1,0 +1,162 @@
+// `sanban train` as a whole, by the executable: it learns, it goes on where it was stopped, and
+// nothing that stops it costs more than the games in flight.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/base/files.h"
+#include "engine/base/random.h"
+#include "nn/load.h"
+#include "selfplay/records/segment.h"
+#include "selfplay/training/folder.h"
+#include "selfplay/training/journal.h"
+#include "tests/temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using selfplay::training::RunFolder;
+
+struct TrainTest : testing::Test {
+    tests::TemporaryFolder temporary;
+    fs::path folder = temporary.path() / "run";
+    fs::path log = temporary.path() / "log";
+
+    // A loop so small that it publishes a network several times a second.
+    std::vector<std::string> small() const {
+        return {"--game",
+                "go",
+                "--size",
+                "5",
+                "--dir",
+                folder.string(),
+                "--blocks",
+                "1",
+                "--channels",
+                "4",
+                "--value-width",
+                "4",
+                "--threads",
+                "1",
+                "--games-at-once",
+                "8",
+                "--simulations",
+                "4",
+                "--fast-simulations",
+                "2",
+                "--candidates",
+                "4",
+                "--learn-batch",
+                "16",
+                "--micro-batch",
+                "16",
+                "--refresh",
+                "4",
+                "--first-games",
+                "2",
+                "--ladder-share",
+                "0",
+                "--learn-precision",
+                "fp32"};
+    }
+    pid_t start(std::vector<std::string> words) const {
+        words.insert(words.begin(), {SANBAN_EXECUTABLE, "train"});
+        std::vector<char*> pointers;
+        for (auto& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        const pid_t child = ::fork();
+        if (child == 0) {
+            if (!std::freopen(log.c_str(), "a", stderr)) ::_exit(9);
+            ::execv(pointers[0], pointers.data());
+            ::_exit(9);
+        }
+        return child;
+    }
+    static int wait_for(pid_t child) {
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        return status;
+    }
+    int run(std::vector<std::string> words) const { return wait_for(start(std::move(words))); }
+    std::vector<std::string> with(std::vector<std::string> more) const {
+        auto words = small();
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    std::size_t games() const {
+        std::size_t count = 0;
+        if (!fs::exists(folder / "games")) return 0;
+        for (const auto& entry : fs::directory_iterator(folder / "games"))
+            count += selfplay::records::unpack(engine::read_file(entry.path())).games.size();
+        return count;
+    }
+    std::string told() const { return fs::exists(log) ? engine::read_file(log) : ""; }
+};
+
+TEST_F(TrainTest, LearnsAndGoesOn) {
+    ASSERT_EQ(run(with({"--games", "40"})), 0) << told();
+    const auto first = games();
+    EXPECT_GE(first, 40u);
+    const auto steps = nn::load(folder / "latest.safetensors").facts.steps;
+    EXPECT_GT(steps, 0);
+    ASSERT_EQ(run(with({"--games", "80"})), 0) << told();
+    EXPECT_GE(games(), 80u);
+    EXPECT_GT(nn::load(folder / "latest.safetensors").facts.steps, steps);
+    const selfplay::training::Journal journal(folder / "metrics.jsonl");
+    ASSERT_FALSE(journal.entries().empty());
+    EXPECT_GE(journal.entries().back().games, 80u);
+    EXPECT_GT(journal.entries().back().learned.policy_loss, 0);
+}
+
+TEST_F(TrainTest, AStopEndsItCleanly) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const auto child = start(small());
+        std::this_thread::sleep_for(700ms);
+        ::kill(child, signal);
+        EXPECT_EQ(wait_for(child), 0) << told();
+    }
+}
+
+TEST_F(TrainTest, BadSettingsAreRefusedAtOnce) {
+    EXPECT_NE(run({"--dir", folder.string(), "--size", "30"}), 0);
+    EXPECT_NE(run({"--dir", folder.string(), "--sise", "9"}), 0);
+    EXPECT_NE(run({"--dir", folder.string(), "--preset", "alphastar"}), 0);
+    EXPECT_FALSE(fs::exists(folder));
+    ASSERT_EQ(run(with({"--games", "4"})), 0) << told();
+    EXPECT_NE(run({"--dir", folder.string(), "--game", "chess"}), 0);
+    EXPECT_NE(told().find("name another folder"), std::string::npos);
+}
+
+TEST_F(TrainTest, FiftyKillsAtAnyMomentLoseNothingThatWasFinished) {
+    engine::Random random(7);
+    std::size_t before = 0;
+    for (int kill = 0; kill < 50; ++kill) {
+        const auto child = start(small());
+        std::this_thread::sleep_for(std::chrono::milliseconds(20 + random.below(500)));
+        ::kill(child, SIGKILL);
+        const int status = wait_for(child);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "it ended by itself: " << told();
+        const auto now = games();
+        ASSERT_GE(now, before) << "after kill " << kill;
+        before = now;
+        if (fs::exists(folder / "latest.safetensors")) {
+            ASSERT_NO_THROW(nn::load(folder / "latest.safetensors")) << "after kill " << kill;
+        }
+    }
+    ASSERT_GT(before, 0u);
+    ASSERT_EQ(run(with({"--games", std::to_string(before + 20)})), 0) << told();
+    EXPECT_GE(games(), before + 20);
+    EXPECT_GT(nn::load(folder / "latest.safetensors").facts.steps, 0);
+    const RunFolder kept(folder);
+    EXPECT_GE(kept.state().games, before + 20);
+}
+
+}  // namespace

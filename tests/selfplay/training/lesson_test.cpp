@@ -1,0 +1,149 @@
+// What a network is taught of a position: the right signs for both colours in every game, and the
+// same thing whichever way the board is turned.
+#include "selfplay/training/lesson.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "engine/games.h"
+#include "engine/go/symmetry.h"
+#include "random_record.h"
+
+namespace selfplay::training {
+namespace {
+
+template <class G>
+Lesson lesson_of(const records::Game& record, std::size_t turn, int symmetry = 0,
+                 std::string_view encoding = "alphazero", float search_share = 0) {
+    Lesson lesson;
+    write_lesson(record, turn, engine::find_encoding<G>(encoding), symmetry, search_share, lesson);
+    return lesson;
+}
+
+template <class G>
+struct LessonOf : testing::Test {};
+using Games = testing::Types<go::Go, chess::Chess, shogi::Shogi>;
+TYPED_TEST_SUITE(LessonOf, Games);
+
+template <class G>
+G small_start() {
+    if constexpr (std::is_same_v<G, go::Go>)
+        return go::Go(5);
+    else
+        return G();
+}
+
+TYPED_TEST(LessonOf, TheWinnerIsTaughtAWinAndTheLoserALoss) {
+    auto record = random_record(small_start<TypeParam>(), 1, 12);
+    for (const auto winner : {engine::Player::first, engine::Player::second}) {
+        record.outcome = engine::win_for(winner);
+        for (std::size_t turn = 0; turn < record.turns.size(); ++turn) {
+            const auto mover = position_of<TypeParam>(record, turn).to_play();
+            const auto lesson = lesson_of<TypeParam>(record, turn);
+            EXPECT_EQ(lesson.value, mover == winner ? 1 : -1) << turn;
+            EXPECT_EQ(lesson.outcome[0], mover == winner ? 1 : 0) << turn;
+            EXPECT_EQ(lesson.outcome[1], 0) << turn;
+            EXPECT_EQ(lesson.outcome[2], mover == winner ? 0 : 1) << turn;
+            EXPECT_EQ(lesson.moves_left, static_cast<float>(record.turns.size() - turn));
+        }
+    }
+    record.outcome = engine::Outcome::draw;
+    EXPECT_EQ(lesson_of<TypeParam>(record, 3).outcome[1], 1);
+    EXPECT_EQ(lesson_of<TypeParam>(record, 3).value, 0);
+}
+
+TYPED_TEST(LessonOf, TheSearchsValueIsTheMoversOwn) {
+    auto record = random_record(small_start<TypeParam>(), 1, 4);
+    record.outcome = engine::Outcome::first_wins;
+    record.turns[1].value = 0.5f;
+    const auto lesson = lesson_of<TypeParam>(record, 1, 0, "alphazero", 0.5f);
+    EXPECT_FLOAT_EQ(lesson.value, 0.5f * -1 + 0.5f * 0.5f);
+    EXPECT_FLOAT_EQ(lesson.outcome[0] + lesson.outcome[1] + lesson.outcome[2], 1);
+}
+
+TYPED_TEST(LessonOf, ThePolicyIsOverTheLegalMovesAndSumsToOne) {
+    const auto record = random_record(small_start<TypeParam>(), 2, 10, 2);
+    const auto& encoding = engine::find_encoding<TypeParam>("alphazero");
+    for (std::size_t turn = 0; turn < record.turns.size(); ++turn) {
+        const auto game = position_of<TypeParam>(record, turn);
+        const auto lesson = lesson_of<TypeParam>(record, turn);
+        ASSERT_EQ(static_cast<int>(lesson.moves.size()), game.legal_moves().size());
+        float sum = 0;
+        std::map<int, float> taught;
+        for (std::size_t i = 0; i < lesson.moves.size(); ++i) {
+            sum += lesson.policy[i];
+            taught[lesson.moves[i]] = lesson.policy[i];
+        }
+        EXPECT_NEAR(sum, turn % 2 == 0 ? 1 : 0, 1e-5);
+        float shares = 0;
+        for (const auto& share : record.policy(record.turns[turn])) shares += share.share;
+        for (const auto& share : record.policy(record.turns[turn]))
+            EXPECT_NEAR(taught[encoding.policy_index(game, share.move)], share.share / shares,
+                        1e-5);
+    }
+}
+
+// The same game on the turned board.
+records::Game turned(const records::Game& record, int symmetry) {
+    auto other = record;
+    go::Go game = go::Go::from_text(record.start);
+    for (auto& turn : other.turns) turn.move = go::transformed(game, turn.move, symmetry);
+    for (auto& share : other.shares) share.move = go::transformed(game, share.move, symmetry);
+    const int size = game.size();
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const auto to = go::transformed({x, y}, size, symmetry);
+            other.owners[static_cast<std::size_t>(to.y * size + to.x)] =
+                record.owners[static_cast<std::size_t>(y * size + x)];
+        }
+    return other;
+}
+
+// The evaluators turn a board the other way round than go::transformed.
+std::map<int, float> policy_of(const Lesson& lesson) {
+    std::map<int, float> policy;
+    for (std::size_t i = 0; i < lesson.moves.size(); ++i)
+        policy[lesson.moves[i]] = lesson.policy[i];
+    return policy;
+}
+
+TEST(GoLessons, TurningTheLessonIsTurningTheGame) {
+    const auto record = random_record(go::Go(5, {}, {.ko = go::Ko::positional}), 3, 40);
+    for (const std::string_view encoding : {"alphazero", "katago-v7"})
+        for (int symmetry = 0; symmetry < 8; ++symmetry) {
+            bool found = false;
+            // One of the game's symmetries is this one of the planes, the same at every turn.
+            for (int other = 0; other < 8; ++other) {
+                const auto image = turned(record, other);
+                bool same = true;
+                for (std::size_t turn = 0; turn < record.turns.size() && same; ++turn) {
+                    const auto a = lesson_of<go::Go>(record, turn, symmetry, encoding);
+                    const auto b = lesson_of<go::Go>(image, turn, 0, encoding);
+                    same = a.planes == b.planes && a.globals == b.globals &&
+                           policy_of(a) == policy_of(b) && a.ownership == b.ownership;
+                }
+                found = found || same;
+            }
+            EXPECT_TRUE(found) << encoding << " " << symmetry;
+        }
+}
+
+TEST(GoLessons, OwnersAndLeadAreTheMovers) {
+    auto record = random_record(go::Go(5), 4, 30);
+    record.lead = 3.5f;
+    record.owners.assign(25, 0);
+    record.owners[7] = 1;
+    const auto black = lesson_of<go::Go>(record, 0), white = lesson_of<go::Go>(record, 1);
+    EXPECT_EQ(black.ownership[7], 1);
+    EXPECT_EQ(white.ownership[7], -1);
+    EXPECT_EQ(black.ownership[8], 0);
+    EXPECT_EQ(black.lead, 3.5f);
+    EXPECT_EQ(white.lead, -3.5f);
+    record.owners.clear();
+    EXPECT_FALSE(lesson_of<go::Go>(record, 0).scored);
+    EXPECT_EQ(lesson_of<go::Go>(record, 0).ownership, std::vector<float>(25, 0.0f));
+}
+
+}  // namespace
+}  // namespace selfplay::training
