@@ -113,10 +113,10 @@ Rates measure(const Case& c) {
 }  // namespace
 
 std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSettings& settings,
+                                          const Positions& positions,
+                                          const Calibration& calibration,
                                           const std::string& prefix) {
     const auto served = served_precision(graph, settings.precision, settings.board);
-    const auto positions = sparse_positions(graph, settings.board, settings.batch);
-    const auto calibration = calibrate(graph, std::span(&positions, 1));
     const auto program = compile(graph, served, calibration, settings.board);
     const Case current{graph, settings, calibration, *program, positions, served};
     std::vector<Rates> rates(static_cast<std::size_t>(settings.threads));
@@ -162,7 +162,10 @@ std::vector<engine::Figure> bench_standard_networks(const BenchSettings& setting
             own.precision = precision;
             if (served_precision(graph, precision, own.board) != precision) continue;
             const auto prefix = fmt::format("{}_{}_", name, name_of(precision));
-            for (auto& figure : bench_network(graph, own, prefix)) figures.push_back(figure);
+            const auto positions = sparse_positions(graph, own.board, own.batch);
+            const auto calibration = calibrate(graph, std::span(&positions, 1));
+            for (auto& figure : bench_network(graph, own, positions, calibration, prefix))
+                figures.push_back(figure);
         }
     }
     return figures;

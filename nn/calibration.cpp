@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "nn/eigen/executor.h"
+#include "nn/backend.h"
 #include "nn/passes.h"
 
 namespace nn {
@@ -21,23 +21,33 @@ Graph laid_open(const Graph& graph) {
     return open;
 }
 
-void raise(std::vector<float>& maxima, std::span<const float> values) {
-    const auto each = values.size() / maxima.size();
+void raise(std::vector<float>& maxima, std::span<const float> values, int channels) {
+    const auto each = values.size() / static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < values.size(); ++i)
         maxima[i / each] = std::max(maxima[i / each], std::abs(values[i]));
 }
 
+bool sound(const std::vector<float>& maxima, const Shape& shape) {
+    // How many numbers a vector holds may depend on the board.
+    const bool fits =
+        !shape.over_board || maxima.size() == static_cast<std::size_t>(shape.channels);
+    return fits && std::all_of(maxima.begin(), maxima.end(),
+                               [](float most) { return std::isfinite(most) && most >= 0; });
+}
+
 class Observer {
    public:
-    explicit Observer(const Graph& graph)
-        : graph_(laid_open(graph)), executor_(eigen::Program(graph_).make_executor()) {}
+    explicit Observer(const Graph& graph) : graph_(laid_open(graph)) {}
 
     void watch(const Positions& positions) {
+        if (!executor_)
+            executor_ = compile(graph_, Precision::fp32, {}, positions.board)->make_executor();
         const auto shapes = infer_shapes(graph_, positions.board);
         resize(shapes, positions.board * positions.board);
         for (int i = 0; i < positions.size; ++i) {
             run(positions, i);
-            for (std::size_t n = 0; n < results_.size(); ++n) raise(maxima_[n], results_[n]);
+            for (std::size_t n = 0; n < results_.size(); ++n)
+                raise(maxima_[n], results_[n], shapes[n].channels);
         }
     }
     std::vector<std::vector<float>> maxima() && { return std::move(maxima_); }
@@ -48,7 +58,8 @@ class Observer {
         maxima_.resize(shapes.size());
         for (std::size_t n = 0; n < shapes.size(); ++n) {
             results_[n].resize(shapes[n].size(points));
-            maxima_[n].resize(static_cast<std::size_t>(shapes[n].channels));
+            const auto channels = static_cast<std::size_t>(shapes[n].channels);
+            maxima_[n].resize(std::max(maxima_[n].size(), channels));
         }
     }
 
@@ -74,6 +85,29 @@ Calibration calibrate(const Graph& graph, std::span<const Positions> batches) {
     Observer observer(graph);
     for (const auto& positions : batches) observer.watch(positions);
     return {std::move(observer).maxima()};
+}
+
+NamedMaxima named_maxima(const Graph& graph, const Calibration& calibration) {
+    if (calibration.maxima.empty()) return {};
+    const auto optimised = optimise(graph);
+    assert(optimised.nodes.size() == calibration.maxima.size());
+    NamedMaxima rows;
+    for (std::size_t n = 0; n < optimised.nodes.size(); ++n)
+        rows[optimised.nodes[n].name] = calibration.maxima[n];
+    return rows;
+}
+
+Calibration calibration_from(const Graph& graph, const NamedMaxima& rows) {
+    if (rows.empty()) return {};
+    const auto optimised = optimise(graph);
+    const auto shapes = infer_shapes(optimised, graph.facts.board > 0 ? graph.facts.board : 9);
+    Calibration calibration;
+    for (std::size_t n = 0; n < optimised.nodes.size(); ++n) {
+        const auto found = rows.find(optimised.nodes[n].name);
+        if (found == rows.end() || !sound(found->second, shapes[n])) return {};
+        calibration.maxima.push_back(found->second);
+    }
+    return calibration;
 }
 
 }  // namespace nn

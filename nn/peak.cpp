@@ -6,219 +6,87 @@ namespace {
 
 #if defined(__x86_64__)
 
-// Each runs twelve chains of one instruction, enough to hide its latency, `rounds` times. Assembly,
-// since a compiler drops what has no result.
-void fp32_512(std::int64_t rounds) {
-    asm volatile(
-        "vpxor %%xmm0, %%xmm0, %%xmm0\n"
-        "vpxor %%xmm1, %%xmm1, %%xmm1\n"
-        "vpxor %%xmm2, %%xmm2, %%xmm2\n"
-        "vpxor %%xmm3, %%xmm3, %%xmm3\n"
-        "vpxor %%xmm4, %%xmm4, %%xmm4\n"
-        "vpxor %%xmm5, %%xmm5, %%xmm5\n"
-        "vpxor %%xmm6, %%xmm6, %%xmm6\n"
-        "vpxor %%xmm7, %%xmm7, %%xmm7\n"
-        "vpxor %%xmm8, %%xmm8, %%xmm8\n"
-        "vpxor %%xmm9, %%xmm9, %%xmm9\n"
-        "vpxor %%xmm10, %%xmm10, %%xmm10\n"
-        "vpxor %%xmm11, %%xmm11, %%xmm11\n"
-        "vpxor %%xmm14, %%xmm14, %%xmm14\n"
-        "vpxor %%xmm15, %%xmm15, %%xmm15\n"
-        "1:\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm0\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm1\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm2\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm3\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm4\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm5\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm6\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm7\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm8\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm9\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm10\n"
-        "vfmadd231ps %%zmm14, %%zmm15, %%zmm11\n"
-        "dec %0\n jnz 1b\n vzeroupper\n"
-        : "+r"(rounds)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7",
-          "xmm8", "xmm9", "xmm10", "xmm11", "xmm14", "xmm15");
-}
+// One instruction a multiply-add, but for int16 in AVX2: a product of pairs and a sum.
+enum class Unit : int { none, fp32_256, fp32_512, bf16_512, int8_512, int16_256, int16_512 };
 
-void fp32_256(std::int64_t rounds) {
-    asm volatile(
-        "vpxor %%xmm0, %%xmm0, %%xmm0\n"
-        "vpxor %%xmm1, %%xmm1, %%xmm1\n"
-        "vpxor %%xmm2, %%xmm2, %%xmm2\n"
-        "vpxor %%xmm3, %%xmm3, %%xmm3\n"
-        "vpxor %%xmm4, %%xmm4, %%xmm4\n"
-        "vpxor %%xmm5, %%xmm5, %%xmm5\n"
-        "vpxor %%xmm6, %%xmm6, %%xmm6\n"
-        "vpxor %%xmm7, %%xmm7, %%xmm7\n"
-        "vpxor %%xmm8, %%xmm8, %%xmm8\n"
-        "vpxor %%xmm9, %%xmm9, %%xmm9\n"
-        "vpxor %%xmm10, %%xmm10, %%xmm10\n"
-        "vpxor %%xmm11, %%xmm11, %%xmm11\n"
-        "vpxor %%xmm14, %%xmm14, %%xmm14\n"
-        "vpxor %%xmm15, %%xmm15, %%xmm15\n"
-        "1:\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm0\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm1\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm2\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm3\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm4\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm5\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm6\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm7\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm8\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm9\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm10\n"
-        "vfmadd231ps %%ymm14, %%ymm15, %%ymm11\n"
-        "dec %0\n jnz 1b\n vzeroupper\n"
-        : "+r"(rounds)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7",
-          "xmm8", "xmm9", "xmm10", "xmm11", "xmm14", "xmm15");
-}
+constexpr int chains = 12;  // enough to hide an instruction's latency
 
-void bf16(std::int64_t rounds) {
+// Twelve chains, `rounds` times. Assembly, since a compiler drops what has no result; the assembler
+// takes the instruction by the unit's number.
+template <Unit unit>
+void run_chains(std::int64_t rounds) {
     asm volatile(
-        "vpxor %%xmm0, %%xmm0, %%xmm0\n"
-        "vpxor %%xmm1, %%xmm1, %%xmm1\n"
-        "vpxor %%xmm2, %%xmm2, %%xmm2\n"
-        "vpxor %%xmm3, %%xmm3, %%xmm3\n"
-        "vpxor %%xmm4, %%xmm4, %%xmm4\n"
-        "vpxor %%xmm5, %%xmm5, %%xmm5\n"
-        "vpxor %%xmm6, %%xmm6, %%xmm6\n"
-        "vpxor %%xmm7, %%xmm7, %%xmm7\n"
-        "vpxor %%xmm8, %%xmm8, %%xmm8\n"
-        "vpxor %%xmm9, %%xmm9, %%xmm9\n"
-        "vpxor %%xmm10, %%xmm10, %%xmm10\n"
-        "vpxor %%xmm11, %%xmm11, %%xmm11\n"
-        "vpxor %%xmm14, %%xmm14, %%xmm14\n"
-        "vpxor %%xmm15, %%xmm15, %%xmm15\n"
+        ".irp r, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14\n"
+        "vpxor %%xmm\\r, %%xmm\\r, %%xmm\\r\n"
+        ".endr\n"
         "1:\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm0\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm1\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm2\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm3\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm4\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm5\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm6\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm7\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm8\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm9\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm10\n"
-        "vdpbf16ps %%zmm14, %%zmm15, %%zmm11\n"
+        ".irp r, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11\n"
+        ".if %c1 == 1\n vfmadd231ps %%ymm13, %%ymm14, %%ymm\\r\n .endif\n"
+        ".if %c1 == 2\n vfmadd231ps %%zmm13, %%zmm14, %%zmm\\r\n .endif\n"
+        ".if %c1 == 3\n vdpbf16ps %%zmm13, %%zmm14, %%zmm\\r\n .endif\n"
+        ".if %c1 == 4\n vpdpbusd %%zmm13, %%zmm14, %%zmm\\r\n .endif\n"
+        ".if %c1 == 5\n vpmaddwd %%ymm13, %%ymm14, %%ymm12\n"
+        "vpaddd %%ymm12, %%ymm\\r, %%ymm\\r\n .endif\n"
+        ".if %c1 == 6\n vpdpwssd %%zmm13, %%zmm14, %%zmm\\r\n .endif\n"
+        ".endr\n"
         "dec %0\n jnz 1b\n vzeroupper\n"
-        : "+r"(rounds)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7",
-          "xmm8", "xmm9", "xmm10", "xmm11", "xmm14", "xmm15");
+        : "+r"(rounds)
+        : "i"(static_cast<int>(unit))
+        : "cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9",
+          "xmm10", "xmm11", "xmm12", "xmm13", "xmm14");
 }
-
-void int8(std::int64_t rounds) {
-    asm volatile(
-        "vpxor %%xmm0, %%xmm0, %%xmm0\n"
-        "vpxor %%xmm1, %%xmm1, %%xmm1\n"
-        "vpxor %%xmm2, %%xmm2, %%xmm2\n"
-        "vpxor %%xmm3, %%xmm3, %%xmm3\n"
-        "vpxor %%xmm4, %%xmm4, %%xmm4\n"
-        "vpxor %%xmm5, %%xmm5, %%xmm5\n"
-        "vpxor %%xmm6, %%xmm6, %%xmm6\n"
-        "vpxor %%xmm7, %%xmm7, %%xmm7\n"
-        "vpxor %%xmm8, %%xmm8, %%xmm8\n"
-        "vpxor %%xmm9, %%xmm9, %%xmm9\n"
-        "vpxor %%xmm10, %%xmm10, %%xmm10\n"
-        "vpxor %%xmm11, %%xmm11, %%xmm11\n"
-        "vpxor %%xmm14, %%xmm14, %%xmm14\n"
-        "vpxor %%xmm15, %%xmm15, %%xmm15\n"
-        "1:\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm0\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm1\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm2\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm3\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm4\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm5\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm6\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm7\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm8\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm9\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm10\n"
-        "vpdpbusd %%zmm14, %%zmm15, %%zmm11\n"
-        "dec %0\n jnz 1b\n vzeroupper\n"
-        : "+r"(rounds)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7",
-          "xmm8", "xmm9", "xmm10", "xmm11", "xmm14", "xmm15");
-}
-
-void int16(std::int64_t rounds) {
-    asm volatile(
-        "vpxor %%xmm0, %%xmm0, %%xmm0\n"
-        "vpxor %%xmm1, %%xmm1, %%xmm1\n"
-        "vpxor %%xmm2, %%xmm2, %%xmm2\n"
-        "vpxor %%xmm3, %%xmm3, %%xmm3\n"
-        "vpxor %%xmm4, %%xmm4, %%xmm4\n"
-        "vpxor %%xmm5, %%xmm5, %%xmm5\n"
-        "vpxor %%xmm6, %%xmm6, %%xmm6\n"
-        "vpxor %%xmm7, %%xmm7, %%xmm7\n"
-        "vpxor %%xmm8, %%xmm8, %%xmm8\n"
-        "vpxor %%xmm9, %%xmm9, %%xmm9\n"
-        "vpxor %%xmm10, %%xmm10, %%xmm10\n"
-        "vpxor %%xmm11, %%xmm11, %%xmm11\n"
-        "vpxor %%xmm14, %%xmm14, %%xmm14\n"
-        "vpxor %%xmm15, %%xmm15, %%xmm15\n"
-        "1:\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm0\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm1\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm2\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm3\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm4\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm5\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm6\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm7\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm8\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm9\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm10\n"
-        "vpdpwssd %%zmm14, %%zmm15, %%zmm11\n"
-        "dec %0\n jnz 1b\n vzeroupper\n"
-        : "+r"(rounds)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7",
-          "xmm8", "xmm9", "xmm10", "xmm11", "xmm14", "xmm15");
-}
-
-struct Unit {
-    void (*run)(std::int64_t rounds);
-    int operations;  // of one instruction
-};
 
 bool has_vnni() {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vnni");
 }
 
-Unit unit_of(Precision precision) {
+Unit unit_for(Precision precision) {
     switch (precision) {
         case Precision::fp32:
-            if (__builtin_cpu_supports("avx512f")) return {fp32_512, 32};
-            if (__builtin_cpu_supports("fma")) return {fp32_256, 16};
-            return {};
+            if (__builtin_cpu_supports("avx512f")) return Unit::fp32_512;
+            return __builtin_cpu_supports("fma") ? Unit::fp32_256 : Unit::none;
         case Precision::bf16:
-            return __builtin_cpu_supports("avx512bf16") ? Unit{bf16, 64} : Unit{};
+            return __builtin_cpu_supports("avx512bf16") ? Unit::bf16_512 : Unit::none;
         case Precision::int8:
-            return has_vnni() ? Unit{int8, 128} : Unit{};
+            return has_vnni() ? Unit::int8_512 : Unit::none;
         case Precision::int16:
-            return has_vnni() ? Unit{int16, 64} : Unit{};
+            if (has_vnni()) return Unit::int16_512;
+            return __builtin_cpu_supports("avx2") ? Unit::int16_256 : Unit::none;
     }
-    return {};
+    return Unit::none;
+}
+
+// Yields how many operations one multiply-add of the unit is.
+int run(Unit unit, std::int64_t rounds) {
+    switch (unit) {
+        case Unit::fp32_256:
+            return run_chains<Unit::fp32_256>(rounds), 16;
+        case Unit::fp32_512:
+            return run_chains<Unit::fp32_512>(rounds), 32;
+        case Unit::bf16_512:
+            return run_chains<Unit::bf16_512>(rounds), 64;
+        case Unit::int8_512:
+            return run_chains<Unit::int8_512>(rounds), 128;
+        case Unit::int16_256:
+            return run_chains<Unit::int16_256>(rounds), 32;
+        case Unit::int16_512:
+            return run_chains<Unit::int16_512>(rounds), 64;
+        case Unit::none:
+            break;
+    }
+    return 0;
 }
 
 #endif
 
 }  // namespace
 
-double run_multiply_adds(Precision precision, std::int64_t rounds) {
+double run_multiply_adds([[maybe_unused]] Precision precision,
+                         [[maybe_unused]] std::int64_t rounds) {
 #if defined(__x86_64__)
-    constexpr int chains = 12;
-    const auto unit = unit_of(precision);
-    if (unit.run == nullptr || rounds < 1) return 0;
-    unit.run(rounds);
-    return static_cast<double>(rounds) * chains * unit.operations;
-#else
-    static_cast<void>(precision);
-    static_cast<void>(rounds);
-    return 0;
+    if (rounds > 0) return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
 #endif
+    return 0;
 }
 
 }  // namespace nn

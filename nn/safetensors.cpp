@@ -22,7 +22,12 @@ static_assert(std::endian::native == std::endian::little, "the format is little-
 
 constexpr std::size_t most_header = std::size_t{1} << 26;
 constexpr int version = 1;
-constexpr std::string_view extra_prefix = "training/";
+constexpr std::string_view extra_prefix = "training/", calibration_prefix = "calibration/";
+
+// Of no operation's weights.
+bool is_row(const std::string& name) {
+    return name.starts_with(extra_prefix) || name.starts_with(calibration_prefix);
+}
 
 // --- the header's JSON, read without trust
 
@@ -191,9 +196,8 @@ Graph graph_from(const Json& description, const std::map<std::string, Stored>& t
     const auto& nodes = member(description, "nodes");
     const auto& outputs = member(description, "outputs");
     if (!nodes.is_array() || !outputs.is_array()) fail("expected lists of nodes and outputs");
-    auto used = static_cast<std::size_t>(
-        std::count_if(tensors.begin(), tensors.end(),
-                      [](const auto& entry) { return entry.first.starts_with(extra_prefix); }));
+    auto used = static_cast<std::size_t>(std::count_if(
+        tensors.begin(), tensors.end(), [](const auto& entry) { return is_row(entry.first); }));
     for (const auto& entry : nodes) {
         graph.nodes.push_back(node_from(entry, tensors));
         used += graph.nodes.back().weights.size();
@@ -255,7 +259,18 @@ struct Contents {
         data.append(reinterpret_cast<const char*>(values.data()), values.size() * 4);
         header[name] = {{"dtype", "F32"}, {"shape", shape}, {"data_offsets", {begin, data.size()}}};
     }
+    void add_rows(std::string_view prefix, const Extras& rows) {
+        for (const auto& [name, row] : rows)
+            add(fmt::format("{}{}", prefix, name), {static_cast<int>(row.size())}, row);
+    }
 };
+
+Extras rows_of(std::string_view bytes, std::string_view prefix) {
+    Extras rows;
+    for (const auto& [name, stored] : opened(bytes).tensors)
+        if (name.starts_with(prefix)) rows[name.substr(prefix.size())] = tensor_of(stored).values;
+    return rows;
+}
 
 std::string description_of(const Graph& graph) {
     Json nodes = Json::array(), outputs = Json::array();
@@ -282,22 +297,21 @@ Graph graph_from_safetensors(std::string_view bytes) {
     return graph;
 }
 
-Extras extras_from_safetensors(std::string_view bytes) {
-    Extras extras;
-    for (const auto& [name, stored] : opened(bytes).tensors)
-        if (name.starts_with(extra_prefix))
-            extras[name.substr(extra_prefix.size())] = tensor_of(stored).values;
-    return extras;
+Extras extras_from_safetensors(std::string_view bytes) { return rows_of(bytes, extra_prefix); }
+
+Calibration calibration_from_safetensors(std::string_view bytes, const Graph& graph) {
+    return calibration_from(graph, rows_of(bytes, calibration_prefix));
 }
 
-std::string to_safetensors(const Graph& graph, const Extras& extras) {
+std::string to_safetensors(const Graph& graph, const Extras& extras,
+                           const Calibration& calibration) {
     Contents contents;
     for (const auto& node : graph.nodes)
         for (std::size_t i = 0; i < node.weights.size(); ++i)
             contents.add(fmt::format("{}.{}", node.name, weight_names(node.operation)[i]),
                          node.weights[i].shape, node.weights[i].values);
-    for (const auto& [name, row] : extras)
-        contents.add(fmt::format("{}{}", extra_prefix, name), {static_cast<int>(row.size())}, row);
+    contents.add_rows(extra_prefix, extras);
+    contents.add_rows(calibration_prefix, named_maxima(graph, calibration));
     const auto description = description_of(graph);
     contents.header["__metadata__"] = {{"sanban", description},
                                        {"checksum", checksum_of(description, contents.data)},

@@ -10,11 +10,11 @@
 #include "engine/go/bench.h"
 #include "engine/shogi/bench.h"
 #include "nn/bench.h"
-#include "nn/load.h"
 #include "nn/training/bench.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
 #include "search/bench.h"
+#include "search/network_bench.h"
 
 namespace protocols {
 
@@ -45,7 +45,8 @@ void print(const Figures& figures) {
 }
 
 struct MeasuredNetwork {
-    std::string weights, precision = "int16";
+    std::string weights;
+    search::PrecisionChoice precision;
     nn::BenchSettings settings{.board = 0};
 };
 
@@ -53,10 +54,11 @@ void add_measured_network(CLI::App& app, MeasuredNetwork& flags) {
     app.add_option("--weights", flags.weights, "nn: a network; several standard ones unless given");
     app.add_option("--board", flags.settings.board, "nn: its board; the network's own, or 19")
         ->check(CLI::Range(1, 25));
-    app.add_option("--precision", flags.precision,
-                   "nn: the next more exact one where it is lacking")
-        ->check(CLI::IsMember({"fp32", "bf16", "int8", "int16"}))
-        ->capture_default_str();
+    app.add_option_function<std::string>(
+           "--precision",
+           [&flags](const std::string& text) { flags.precision = search::precision_choice(text); },
+           "nn: as of play; the next more exact one where it is lacking")
+        ->default_str("auto");
     app.add_option("--threads", flags.settings.threads, "nn: each with an executor of its own")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -69,10 +71,7 @@ void bench_networks(const MeasuredNetwork& flags, double seconds) {
     auto settings = flags.settings;
     settings.seconds = seconds;
     if (flags.weights.empty()) return print(nn::bench_standard_networks(settings));
-    const auto graph = nn::load(flags.weights);
-    settings.precision = *nn::precision_from(flags.precision);
-    if (settings.board == 0) settings.board = graph.facts.board == 0 ? 19 : graph.facts.board;
-    print(nn::bench_network(graph, settings));
+    print(search::bench_weights(flags.weights, flags.precision, settings));
 }
 
 }  // namespace

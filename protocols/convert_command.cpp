@@ -9,9 +9,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/files.h"
+#include "engine/games.h"
 #include "nn/load.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "search/load_network.h"
 #include "selfplay/records/arrays.h"
 #include "selfplay/records/export.h"
 
@@ -22,8 +24,13 @@ namespace {
 namespace records = selfplay::records;
 
 void convert_network(const std::string& in, const std::string& out) {
-    const auto graph = nn::load(in);
-    nn::save(graph, out);
+    const auto contents = nn::load_contents(in);
+    const auto& graph = contents.graph;
+    nn::Calibration calibration;
+    if (!graph.facts.game.empty())
+        calibration = engine::Games::visit(
+            graph.facts.game, [&]<class G>() { return search::calibration_of<G>(contents); });
+    nn::save(graph, out, calibration);
     fmt::print("{}: {} parameters for {} ({})\n", out, nn::parameter_count(graph), graph.facts.game,
                graph.facts.encoding);
 }

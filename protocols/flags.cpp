@@ -1,5 +1,8 @@
 #include "protocols/flags.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <string>
 #include <thread>
@@ -24,9 +27,12 @@ void add_network_flags(CLI::App& app, NetworkFlags& flags) {
                    "network of sanban, KataGo, lc0 or Leela Zero; a bare name is looked for beside "
                    "the executable, in the working folder and in the data folder");
     app.add_option_function<std::string>(
-        "--precision",
-        [&flags](const std::string& text) { flags.precision = parse_precision(text); },
-        "in which the network is run: fp32");
+           "--precision",
+           [&flags](const std::string& text) { flags.precision = search::precision_choice(text); },
+           fmt::format("in which the network is run: {}; auto: the fastest that loses nothing play "
+                       "would notice",
+                       fmt::join(search::precision_choices(), ", ")))
+        ->default_str("auto");
 }
 
 void check_method(const search::SearchParams& params, const NetworkFlags& flags) {
@@ -35,11 +41,6 @@ void check_method(const search::SearchParams& params, const NetworkFlags& flags)
     if (needs_network && flags.weights.empty())
         engine::fail("--search {} needs a network: --weights FILE",
                      search::method_names[static_cast<std::size_t>(params.method)]);
-}
-
-nn::Precision parse_precision(std::string_view text) {
-    if (const auto precision = nn::precision_from(text)) return *precision;
-    engine::fail("{} is no precision that networks are run in", text);
 }
 
 std::optional<int> parse_flags(CLI::App& app, Arguments arguments) {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "nn/executor.h"
 #include "protocols/commands.h"
+#include "search/network.h"
 #include "search/params.h"
 
 namespace protocols {
@@ -17,15 +17,13 @@ void add_search_flags(CLI::App& app, search::SearchParams& params);
 // Where weights come from and in what precision they run.
 struct NetworkFlags {
     std::string weights;  // empty: none
-    nn::Precision precision = nn::Precision::fp32;
+    search::PrecisionChoice precision;
 };
 
 // `flags` must outlive `app`.
 void add_network_flags(CLI::App& app, NetworkFlags& flags);
 // Fails when the search that was asked for needs a network and none was named.
 void check_method(const search::SearchParams& params, const NetworkFlags& flags);
-// Fails where there is none of that name.
-nn::Precision parse_precision(std::string_view text);
 
 // Parses what stands behind the subcommand's name; an exit status when that was all there is to do
 // (--help, wrong usage).

@@ -147,7 +147,7 @@ std::string Gtp::manual() {
 Gtp::Gtp(const GtpSettings& settings, const search::SearchParams& params, Output& out)
     : settings_(settings), out_(out), session_(params), judge_(params) {
     restart(go::Go(settings.size, go::Komi::from_points(settings.komi), settings.rules));
-    if (!settings.weights.empty()) session_.load_network(settings.weights, settings.precision);
+    if (!settings.weights.empty()) load_weights(settings.weights);
 }
 
 Gtp::~Gtp() { session_.stop(); }

@@ -38,7 +38,7 @@ struct GtpSettings {
     double resign_below = 0.1;      // winrate; 0: never
     bool ponder = false;
     std::string weights;  // of the network; empty: none
-    nn::Precision precision = nn::Precision::fp32;
+    search::PrecisionChoice precision;
 };
 
 class Gtp {
@@ -189,6 +189,7 @@ class Gtp {
     void start_handicap(std::span<const go::Point> points);
     void change_params(std::string_view row, std::string_view value);
     void load_weights(const std::string& file);
+    void renew_network();
     go::Point vertex_of(std::string_view text) const;
     std::string points_text(std::span<const go::Point> points) const;
     std::string result_text();
@@ -219,6 +220,7 @@ class Gtp {
     void ponder();
 
     GtpSettings settings_;
+    search::PrecisionChoice network_precision_;  // that the network was loaded for
     Output& out_;
     GameSession<go::Go> session_;
     GoJudge judge_;

@@ -41,6 +41,9 @@ constexpr Parameter parameters[] = {
      [](GtpSettings& s, std::string_view text) {
          s.seconds = within<double>("maxTime", text, 0.001, 1e6);
      }},
+    {"Precision", "Precision",
+     [](const GtpSettings& s) { return std::string(search::name_of(s.precision)); },
+     [](GtpSettings& s, std::string_view text) { s.precision = search::precision_choice(text); }},
     {"ponderingEnabled", "Pondering",
      [](const GtpSettings& s) { return std::string(s.ponder ? "true" : "false"); },
      [](GtpSettings& s, std::string_view text) {
@@ -176,7 +179,8 @@ std::string Gtp::set_option(Words& words) {
     if (!words.empty()) words.take("value");
     value = words.rest();
     for (const auto& parameter : parameters)
-        if (parameter.lz == name && !name.empty()) return parameter.write(settings_, value), "";
+        if (parameter.lz == name && !name.empty())
+            return parameter.write(settings_, value), renew_network(), "";
     if (name == "WeightsFile") return load_weights(value), "";
     // In centiseconds.
     if (name == "Lagbuffer") value = std::to_string(10 * within<int>(name, value, 0, 1000));
@@ -218,7 +222,7 @@ std::string Gtp::set_param(Words& words) {
     if (name == "WeightsFile") return load_weights(std::string(words.rest())), "";
     const auto value = words.take("the value");
     for (const auto& parameter : parameters)
-        if (parameter.kata == name) return parameter.write(settings_, value), "";
+        if (parameter.kata == name) return parameter.write(settings_, value), renew_network(), "";
     change_params(row_of(name), value);
     return "";
 }
@@ -245,6 +249,13 @@ std::string Gtp::set_params(Words& words) {
 void Gtp::load_weights(const std::string& file) {
     session_.load_network(file, settings_.precision);
     settings_.weights = file;
+    network_precision_ = settings_.precision;
+}
+
+// After a change of settings.
+void Gtp::renew_network() {
+    if (!settings_.weights.empty() && settings_.precision != network_precision_)
+        load_weights(settings_.weights);
 }
 
 void Gtp::change_params(std::string_view row, std::string_view value) {

@@ -85,7 +85,8 @@ Evaluation Gtp::ask_network(const go::Go& game, const engine::MoveList& moves, i
     const auto& network = session_.searcher().network();
     if (!network) engine::fail("there is no network: start with --weights FILE");
     network->check(game);
-    search::SymmetryEvaluator<go::Go> evaluator(network->make_evaluator(), 0);
+    search::SymmetryEvaluator<go::Go> evaluator(
+        settings_.precision ? network->make_evaluator() : network->make_exact_evaluator(), 0);
     Evaluation answer;
     const search::Query<go::Go> query{&game, &moves, symmetry, &answer};
     evaluator.evaluate({&query, 1});

@@ -16,9 +16,8 @@
 #include "engine/base/error.h"
 #include "engine/base/option.h"
 #include "engine/game.h"
+#include "search/load_network.h"
 #include "search/mate.h"
-#include "search/network.h"
-#include "search/network_evaluator.h"
 #include "search/searcher.h"
 
 namespace protocols {
@@ -60,7 +59,7 @@ class Session {
     virtual void set_params(const search::SearchParams& params) = 0;
     // Searches with the network of this file from now on; with games played out when the name is
     // empty. Fails, all being as before, when the file or its game or board is wrong.
-    virtual void load_network(const std::string& file, nn::Precision precision) = 0;
+    virtual void load_network(const std::string& file, search::PrecisionChoice precision) = 0;
     // Where the network's policy has a legal move; 0 without a network.
     virtual int policy_index(engine::Move move) const = 0;
 
@@ -184,15 +183,14 @@ class GameSession final : public Session {
         params_ = params;
     }
 
-    void load_network(const std::string& file, nn::Precision precision) override {
+    void load_network(const std::string& file, search::PrecisionChoice precision) override {
         if (file.empty()) return searcher_.set_network(nullptr);
         if constexpr (engine::Encoded<G>) {
-            auto network = search::load_network(file, precision);
-            auto source = std::make_shared<search::NetworkSource<G>>(std::move(network));
-            source->check(now());
+            auto source = search::load_network(file, precision, now());
             searcher_.set_network(nullptr);
             searcher_.set_position(now());
             searcher_.set_network(std::move(source));
+            searcher_.warm_up();
         } else {
             engine::fail("no network plays {}", G::name);
         }

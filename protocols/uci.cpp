@@ -124,7 +124,7 @@ void Uci::is_ready(std::string_view) {
     out_.line("readyok");
 }
 
-void Uci::set_network(const std::string& file, nn::Precision precision) {
+void Uci::set_network(const std::string& file, search::PrecisionChoice precision) {
     weights_ = file;
     precision_ = precision;
     network_due_ = true;

@@ -52,7 +52,7 @@ class Uci {
     Uci& operator=(const Uci&) = delete;
 
     // The network to load before the first think; `uci` is answered before.
-    void set_network(const std::string& file, nn::Precision precision);
+    void set_network(const std::string& file, search::PrecisionChoice precision);
 
     // Until `quit` or the end of input; a think with limits that is under way then is finished.
     void serve(std::istream& in);
@@ -108,7 +108,7 @@ class Uci {
     std::vector<UciOption> options_;
 
     std::string weights_;
-    nn::Precision precision_ = nn::Precision::fp32;
+    search::PrecisionChoice precision_;
     bool verbose_ = false;
     bool network_due_ = false;  // weights_ and precision_ are not in force yet
 

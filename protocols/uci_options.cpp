@@ -78,6 +78,13 @@ std::vector<UciOption> Uci::common_options() {
     options.push_back({"WeightsFile", "type string default <empty>", [this](std::string_view text) {
                            set_network(text == "<empty>" ? "" : std::string(text), precision_);
                        }});
+    options.push_back({"Precision",
+                       fmt::format("type combo default auto var {}",
+                                   fmt::join(search::precision_choices(), " var ")),
+                       [this](std::string_view text) {
+                           const auto choice = search::precision_choice(text);
+                           if (choice != precision_) set_network(weights_, choice);
+                       }});
     options.push_back(
         {"MultiPV", "type spin default 1 min 1 max 256",
          [this](std::string_view text) { multi_pv_ = number_within("MultiPV", text, 1, 256); }});

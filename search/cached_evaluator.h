@@ -37,6 +37,7 @@ class CachedEvaluator final : public Evaluator<G> {
     }
     int symmetries(const G& game) const override { return inner_->symmetries(game); }
     std::uint64_t key(const G& game) const override { return inner_->key(game); }
+    void warm_up(const G& game, int most) override { inner_->warm_up(game, most); }
 
    private:
     std::uint64_t key_of(const Query<G>& query) const {

@@ -67,6 +67,9 @@ class Evaluator {
     virtual int symmetries(const G& game) const = 0;
     // Of all that an answer depends on, legal moves and symmetry aside.
     virtual std::uint64_t key(const G& game) const = 0;
+    // Makes ready for batches of up to `most` such games, so that the first is answered as fast as
+    // any. By the thread that will evaluate.
+    virtual void warm_up(const G&, int /*most*/) {}
 };
 
 template <engine::Game G>
@@ -75,6 +78,8 @@ class EvaluatorSource {
     virtual ~EvaluatorSource() = default;
     // From any thread.
     virtual std::unique_ptr<Evaluator<G>> make_evaluator() const = 0;
+    // One that answers to the last digit, however coarse the search's own.
+    virtual std::unique_ptr<Evaluator<G>> make_exact_evaluator() const { return make_evaluator(); }
     virtual std::string_view name() const = 0;
     // Fails, naming both, when the network does not serve the board of this game.
     virtual void check(const G& game) const = 0;

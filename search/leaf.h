@@ -70,6 +70,8 @@ class LeafEvaluator {
     // Whether it pays to judge a leaf that another worker is judging already.
     virtual bool shares_leaves() const = 0;
     virtual OwnerTally* tally() { return nullptr; }
+    // As Evaluator's.
+    virtual void warm_up(const G&, int /*most*/) {}
 };
 
 // Monte Carlo: the result of one game played to the end. Priors are the rollout policy's where it

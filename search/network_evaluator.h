@@ -43,6 +43,14 @@ class NetworkEvaluator final : public Evaluator<G> {
     int symmetries(const G& game) const override { return encoding_.shape(game).symmetries; }
     std::uint64_t key(const G& game) const override { return encoding_.key(game); }
 
+    void warm_up(const G& game, int most) override {
+        const auto shape = encoding_.shape(game);
+        for (int count = most; count > 0; --count) {
+            prepare(static_cast<std::size_t>(count), shape);
+            executor_->run({count, shape.height, inputs_, results_});
+        }
+    }
+
    private:
     void evaluate_alike(std::span<const Query<G>> queries, const engine::EncodingShape& shape) {
         prepare(queries.size(), shape);
@@ -177,7 +185,10 @@ template <engine::Encoded G>
 class NetworkSource final : public EvaluatorSource<G> {
    public:
     // Fails with engine::Error when the network is for another game.
-    explicit NetworkSource(std::shared_ptr<const Network> network) : network_(std::move(network)) {
+    // `exact` is the same network in fp32, where that is at hand.
+    explicit NetworkSource(std::shared_ptr<const Network> network,
+                           std::shared_ptr<const Network> exact = nullptr)
+        : network_(std::move(network)), exact_(exact ? std::move(exact) : network_) {
         const auto& facts = network_->graph().facts;
         if (facts.game != G::name)
             engine::fail("the network {} plays {}, not {}", facts.name, facts.game, G::name);
@@ -188,6 +199,12 @@ class NetworkSource final : public EvaluatorSource<G> {
     std::unique_ptr<Evaluator<G>> make_evaluator() const override {
         return std::make_unique<NetworkEvaluator<G>>(network_);
     }
+    std::unique_ptr<Evaluator<G>> make_exact_evaluator() const override {
+        return std::make_unique<NetworkEvaluator<G>>(exact_);
+    }
+    const std::shared_ptr<const Network>& network() const { return network_; }
+    // In which the search runs it.
+    nn::Precision precision() const { return network_->precision(); }
     std::string_view name() const override { return network_->graph().facts.name; }
 
     void check(const G& game) const override {
@@ -204,7 +221,7 @@ class NetworkSource final : public EvaluatorSource<G> {
     }
 
    private:
-    std::shared_ptr<const Network> network_;
+    std::shared_ptr<const Network> network_, exact_;
     const engine::Encoding<G>* encoding_ = nullptr;
 };
 

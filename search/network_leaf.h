@@ -46,6 +46,7 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     }
     bool shares_leaves() const override { return false; }
     OwnerTally* tally() override { return &tally_; }
+    void warm_up(const G& game, int most) override { evaluator_->warm_up(game, most); }
 
    private:
     void absorb(Evaluation& answer, Leaf<G>& leaf) {

@@ -51,6 +51,8 @@ class Searcher {
     void set_network(std::shared_ptr<const EvaluatorSource<G>> network);
     bool has_network() const { return network_ != nullptr; }
     const std::shared_ptr<const EvaluatorSource<G>>& network() const { return network_; }
+    // Has every worker make its network ready for the present position's board. Blocks.
+    void warm_up();
     // Fails when the network, if there is one, does not serve the board of this game.
     void check(const G& game) const {
         if (uses_network()) network_->check(game);
@@ -178,6 +180,16 @@ void Searcher<G>::set_network(std::shared_ptr<const EvaluatorSource<G>> network)
     network_ = std::move(network);
     rebuild(params_);
     set_position(root);
+}
+
+template <engine::Game G>
+void Searcher<G>::warm_up() {
+    check(position());
+    crew_->start([this](int index) {
+        const auto at = static_cast<std::size_t>(index);
+        if (at < workers_.size()) workers_[at]->warm_up(position());
+    });
+    crew_->wait();
 }
 
 template <engine::Game G>

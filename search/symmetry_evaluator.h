@@ -31,6 +31,7 @@ class SymmetryEvaluator final : public Evaluator<G> {
     }
     int symmetries(const G& game) const override { return inner_->symmetries(game); }
     std::uint64_t key(const G& game) const override { return inner_->key(game); }
+    void warm_up(const G& game, int most) override { inner_->warm_up(game, most); }
 
    private:
     Query<G> settled_query(Query<G> query) {

@@ -45,6 +45,7 @@ class Worker {
     std::uint64_t deepest() const { return deepest_.load(std::memory_order_relaxed); }
     OwnerTally* tally() { return evaluator_->tally(); }
 
+    void warm_up(const G& game) { evaluator_->warm_up(game, static_cast<int>(leaves_.size())); }
     void reset_counts() { simulations_ = steps_ = deepest_ = 0; }
 
     // Returns when the team stops, its limit is reached or the root has nothing to search.

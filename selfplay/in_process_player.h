@@ -17,14 +17,17 @@ template <engine::Game G>
 class InProcessPlayer final : public Player {
    public:
     using Start = std::function<G(const GameSetup&)>;
+    using Source = std::shared_ptr<const search::EvaluatorSource<G>>;
+    using Load = std::function<Source(const G& start)>;
 
-    // `start` makes the position before the first move. Without `simulations` a move takes the time
-    // that the clock allots.
+    // `start` makes the position before the first move; `load`, which may be empty, the network.
+    // Without `simulations` a move takes the time that the clock allots.
     InProcessPlayer(const search::SearchParams& params, std::optional<std::uint64_t> simulations,
-                    Start start, std::stop_token stop)
+                    Start start, Load load, std::stop_token stop)
         : searcher_(params),
           simulations_(simulations),
           start_(std::move(start)),
+          load_(std::move(load)),
           stop_(std::move(stop)) {}
 
     std::string name() const override { return "sanban"; }
@@ -32,8 +35,12 @@ class InProcessPlayer final : public Player {
     void new_game(const GameSetup& setup, engine::Player, Deadline) override {
         if (!simulations_ && setup.time.unlimited)
             engine::fail("an internal player needs a time control or a number of visits");
-        searcher_.set_position(start_(setup));
+        const auto start = start_(setup);
+        searcher_.set_position(start);
         ply_ = 0;
+        if (!load_) return;
+        searcher_.set_network(std::exchange(load_, {})(start));
+        searcher_.warm_up();
     }
 
     void play(engine::Player, std::string_view text, Deadline) override {
@@ -81,6 +88,7 @@ class InProcessPlayer final : public Player {
     search::Searcher<G> searcher_;
     std::optional<std::uint64_t> simulations_;
     Start start_;
+    Load load_;  // until the first game
     std::stop_token stop_;
     int ply_ = 0;  // moves of the game so far
     std::mutex mutex_;

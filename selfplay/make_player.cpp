@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/games.h"
+#include "search/load_network.h"
 #include "selfplay/gnushogi_player.h"
 #include "selfplay/gtp_player.h"
 #include "selfplay/in_process_player.h"
@@ -18,18 +19,42 @@ namespace {
 
 using Made = std::unique_ptr<Player>;
 
-// "name=value" words after the first of the command set the search's options.
-search::SearchParams params_of(const PlayerSettings& settings) {
+struct InternalSettings {
     search::SearchParams params;
-    params.memory_mib = 256;
+    std::string weights;  // empty: none
+    search::PrecisionChoice precision;
+
+    void set(const std::string& name, const std::string& value) {
+        if (name == "weights") {
+            weights = value;
+        } else if (name == "precision") {
+            precision = search::precision_choice(value);
+        } else {
+            engine::set_option(params, name, value);
+        }
+    }
+};
+
+// "name=value" words after the first of the command: weights, precision, the search's options.
+InternalSettings internal_settings(const PlayerSettings& settings) {
+    InternalSettings internal;
+    internal.params.memory_mib = 256;
     const auto words = split_command(settings.command);
     for (std::size_t i = 1; i < words.size(); ++i) {
         const auto equals = words[i].find('=');
         if (equals == std::string::npos)
             engine::fail("internal player: wants name=value, not {}", words[i]);
-        engine::set_option(params, words[i].substr(0, equals), words[i].substr(equals + 1));
+        internal.set(words[i].substr(0, equals), words[i].substr(equals + 1));
     }
-    return params;
+    return internal;
+}
+
+template <engine::Game G>
+typename InProcessPlayer<G>::Load loader_of(const InternalSettings& settings) {
+    if (settings.weights.empty()) return {};
+    return [weights = settings.weights, precision = settings.precision](const G& start) {
+        return search::load_network(weights, precision, start);
+    };
 }
 
 template <engine::Game G>
@@ -43,8 +68,9 @@ G start_for(const GameSetup& setup) {
 Made make_internal(const PlayerSettings& settings, const std::string& game, Deadline,
                    std::stop_token stop) {
     return engine::Games::visit(game, [&]<class G>() -> Made {
-        return std::make_unique<InProcessPlayer<G>>(params_of(settings), settings.visits,
-                                                    start_for<G>, std::move(stop));
+        const auto internal = internal_settings(settings);
+        return std::make_unique<InProcessPlayer<G>>(internal.params, settings.visits, start_for<G>,
+                                                    loader_of<G>(internal), std::move(stop));
     });
 }
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -72,6 +73,14 @@ std::string read_file(const std::filesystem::path& path, std::size_t most) {
     }
     if (in.bad()) fail("{}: cannot read: {}", path.string(), reason());
     return bytes;
+}
+
+std::optional<std::filesystem::path> user_folder(const char* variable, const char* in_home) {
+    if (const char* folder = std::getenv(variable); folder && *folder)
+        return std::filesystem::path(folder) / "sanban";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return std::filesystem::path(home) / in_home / "sanban";
+    return std::nullopt;
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

@@ -107,12 +107,107 @@ void transform_chunk(const Transform& t, std::ptrdiff_t row, std::ptrdiff_t fact
     store(v, t.out, t.format, row + c, n);
 }
 
-void transform(const Transform& t) {
+// Sixteen numbers; the compiler splits them where registers are shorter.
+constexpr int lanes = 16;
+using Floats [[gnu::vector_size(lanes * 4)]] = float;
+using Words [[gnu::vector_size(lanes * 4)]] = int;
+using Halves [[gnu::vector_size(lanes * 2)]] = unsigned short;
+using Octets [[gnu::vector_size(lanes)]] = unsigned char;
+
+inline Floats load(const float* from) {
+    Floats v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+}
+template <class Vector>
+inline void put(const Vector& v, void* to, std::ptrdiff_t at) {
+    __builtin_memcpy(static_cast<char*>(to) + at * static_cast<std::ptrdiff_t>(sizeof v / lanes),
+                     &v, sizeof v);
+}
+inline Floats clamped(const Floats& v, const Floats& low, const Floats& high) {
+    const Floats above = v > low ? v : low;
+    return above < high ? above : high;
+}
+
+template <Format format>
+inline void put_as(const Floats& v, void* out, std::ptrdiff_t at) {
+    const Floats none = {};
+    if constexpr (format == Format::f32) {
+        put(v, out, at);
+    } else if constexpr (format == Format::bf16) {
+        const auto bits = __builtin_bit_cast(Words, v);
+        put(__builtin_convertvector((bits + 0x7fff + ((bits >> 16) & 1)) >> 16, Halves), out, at);
+    } else if constexpr (format == Format::u8) {
+        const auto whole = clamped(v, none, none + 255) + 0.5f;
+        put(__builtin_convertvector(__builtin_convertvector(whole, Words), Octets), out, at);
+    } else {
+        const auto whole = clamped(v, none - 127, none + 127) + 128.5f;
+        put(__builtin_convertvector(__builtin_convertvector(whole, Words) - 128, Octets), out, at);
+    }
+}
+
+// A factor or term that is not there is read as a vector of ones or zeros.
+struct Source {
+    const float* data;
+    std::ptrdiff_t mask;  // of offsets
+    Floats at(std::ptrdiff_t offset) const { return load(data + (offset & mask)); }
+};
+inline Source source_or(const float* data, const float* otherwise) {
+    return data != nullptr ? Source{data, -1} : Source{otherwise, 0};
+}
+
+constexpr float ones[lanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+constexpr float zeros[lanes] = {};
+
+// The channels of all points that fill whole vectors.
+template <Format format, bool positive>
+void transform_vectors(Transform t) {
+    const auto scale = source_or(t.scale, ones), shift = source_or(t.shift, zeros);
+    const auto residual = source_or(t.residual, zeros), post = source_or(t.post, ones);
+    const Floats none = {};
     std::ptrdiff_t row = 0;
     for (int position = 0; position < t.positions; ++position)
         for (int point = 0; point < t.points; ++point, row += t.channels)
-            for (int c = 0; c < t.channels; c += chunk)
+            for (int c = 0; c + lanes <= t.channels; c += lanes) {
+                const std::ptrdiff_t factor = t.step * position + c;
+                Floats v = load(t.in + row + c) * scale.at(factor) + shift.at(factor) +
+                           residual.at(row + c);
+                if constexpr (positive) v = v > none ? v : none;
+                put_as<format>(v * post.at(c), t.out, row + c);
+            }
+}
+
+template <Format format>
+void transform_vectors(Transform t) {
+    if (t.activation == Activation::relu) return transform_vectors<format, true>(t);
+    transform_vectors<format, false>(t);
+}
+
+void transform_from(const Transform& t, int first) {
+    std::ptrdiff_t row = 0;
+    for (int position = 0; position < t.positions; ++position)
+        for (int point = 0; point < t.points; ++point, row += t.channels)
+            for (int c = first; c < t.channels; c += chunk)
                 transform_chunk(t, row, t.step * position, c, smaller(chunk, t.channels - c));
+}
+
+void transform(const Transform& t) {
+    if (t.activation > Activation::relu) return transform_from(t, 0);
+    switch (t.format) {
+        case Format::f32:
+            transform_vectors<Format::f32>(t);
+            break;
+        case Format::bf16:
+            transform_vectors<Format::bf16>(t);
+            break;
+        case Format::u8:
+            transform_vectors<Format::u8>(t);
+            break;
+        case Format::s8:
+            transform_vectors<Format::s8>(t);
+            break;
+    }
+    if (t.channels % lanes != 0) transform_from(t, t.channels / lanes * lanes);
 }
 
 void pool_one(const Pool& p, const float* in, float* out) {

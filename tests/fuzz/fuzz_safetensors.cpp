@@ -7,7 +7,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
-        nn::graph_from_safetensors({reinterpret_cast<const char*>(data), size});
+        const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+        nn::calibration_from_safetensors(bytes, nn::graph_from_safetensors(bytes));
     } catch (const engine::Error&) {
         return 0;
     }

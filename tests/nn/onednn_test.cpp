@@ -9,21 +9,11 @@
 #include "nn/calibration.h"
 #include "nn/load.h"
 #include "nn/onednn/executor.h"
+#include "random_positions.h"
 #include "shared.h"
 
 namespace nn {
 namespace {
-
-Positions random_positions(const Graph& graph, int board, int size, engine::Random& random) {
-    Positions positions{size, board, {}};
-    const auto shapes = infer_shapes(graph, board);
-    for (const int n : graph.input_nodes())
-        positions.inputs.push_back(
-            naive::random_tensor(random,
-                                 {size, static_cast<int>(shapes[naive::at(n)].size(board * board))})
-                .values);
-    return positions;
-}
 
 double difference(const Graph& graph, Precision precision, int board, int size,
                   engine::Random& random) {

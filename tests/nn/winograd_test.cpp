@@ -8,9 +8,10 @@
 #include <thread>
 
 #include "engine/base/error.h"
-#include "maxima.h"
 #include "naive.h"
 #include "nn/builders.h"
+#include "nn/calibration.h"
+#include "nn/eigen/executor.h"
 #include "nn/passes.h"
 #include "nn/winograd/pack.h"
 
@@ -210,13 +211,20 @@ double worst_share(const std::vector<std::vector<float>>& found,
     return worst;
 }
 
+std::vector<std::vector<float>> maxima_on(const Graph& graph, int board,
+                                          const std::vector<std::vector<float>>& inputs,
+                                          int count) {
+    const Positions seen{count, board, inputs};
+    return calibrate(graph, std::span(&seen, 1)).maxima;
+}
+
 // Against the reference with every instruction set; the sets must agree to the last bit.
 void expect_close(const Graph& graph, int board, int positions, double bound) {
     const auto optimised = optimise(graph);
     ASSERT_TRUE(serves(optimised, board));
     engine::Random random(at(board));
     const auto inputs = sparse_inputs(graph, board, positions, random);
-    const auto maxima = maxima_of(optimised, board, inputs, positions);
+    const auto maxima = maxima_on(graph, board, inputs, positions);
     const auto expected =
         run(graph, *eigen::Program(graph).make_executor(), board, inputs, positions);
     std::vector<std::vector<float>> first;
@@ -282,7 +290,7 @@ TEST(Winograd, ABatchIsItsPositionsOneByOne) {
     const auto optimised = optimise(graph);
     constexpr int positions = 13;
     const auto inputs = sparse_inputs(graph, 8, positions, random);
-    const Program program(optimised, maxima_of(optimised, 8, inputs, positions), 8);
+    const Program program(optimised, maxima_on(graph, 8, inputs, positions), 8);
     const auto executor = program.make_executor();
     const auto together = run(graph, *executor, 8, inputs, positions);
     const auto size = inputs[0].size() / positions;
@@ -301,7 +309,7 @@ TEST(Winograd, ExecutorsOfOneProgramRunSideBySide) {
     const auto graph = build_tower(tower(9, 32), random);
     const auto optimised = optimise(graph);
     const auto inputs = sparse_inputs(graph, 9, 4, random);
-    const Program program(optimised, maxima_of(optimised, 9, inputs, 4), 9);
+    const Program program(optimised, maxima_on(graph, 9, inputs, 4), 9);
     const auto expected = run(graph, *program.make_executor(), 9, inputs, 4);
     std::array<int, 3> same{};
     std::vector<std::thread> threads;
@@ -334,7 +342,7 @@ TEST(Winograd, RefusesAnotherBoard) {
     const auto graph = naive::every_operation(random, 5);
     const auto optimised = optimise(graph);
     const auto inputs = sparse_inputs(graph, 5, 1, random);
-    const auto executor = Program(optimised, maxima_of(optimised, 5, inputs, 1), 5).make_executor();
+    const auto executor = Program(optimised, maxima_on(graph, 5, inputs, 1), 5).make_executor();
     EXPECT_THROW(naive::worst_difference(graph, *executor, 6, 1, random), engine::Error);
 }
 

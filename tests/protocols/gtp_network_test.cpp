@@ -3,7 +3,8 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
+#include <sstream>
+#include <tuple>
 
 #include "engine/games.h"
 #include "nn/load.h"
@@ -51,6 +52,69 @@ TEST_F(KataGo, SaysWhitesTurnAsWhite) {
     EXPECT_NEAR(std::stod(line_of(text, "whiteWin").substr(9)), 0.566107, 2e-6);
     EXPECT_EQ(line_of(text, "whiteLead"), "whiteLead 1.090");
     EXPECT_TRUE(has(text, "NAN"));
+}
+
+// The policy's prior of a vertex, read off the rows.
+double prior_at(const std::string& text, int size, char column, int row) {
+    std::istringstream in(text.substr(text.find("policy\n") + 7));
+    std::string word;
+    const int x = column - 'A' - (column > 'I' ? 1 : 0);
+    for (int i = 0; i <= (size - row) * size + x; ++i) in >> word;
+    return word == "NAN" ? -1 : std::stod(word);
+}
+
+double number_of(const std::string& text, std::string_view name) {
+    return std::stod(line_of(text, name).substr(name.size()));
+}
+
+TEST_F(KataGo, SaysJapanesePositionsAsKataGoDoes) {
+    guest.say("kata-set-rules japanese");
+    guest.say("komi 6.5");
+    for (const char* move : {"play b E5", "play w C3", "play b G3"}) guest.say(move);
+    const auto text = guest.ask("kata-raw-nn 0");
+    EXPECT_NEAR(number_of(text, "whiteWin"), 0.559578, 2e-6);
+    EXPECT_NEAR(number_of(text, "whiteLoss"), 0.440372, 2e-6);
+    EXPECT_NEAR(number_of(text, "noResult"), 0.000050, 2e-6);
+    EXPECT_NEAR(number_of(text, "whiteLead"), 0.979, 2e-3);
+    EXPECT_NEAR(prior_at(text, 9, 'D', 6), 0.347640, 1e-5);
+    EXPECT_NEAR(prior_at(text, 9, 'C', 6), 0.257492, 1e-5);
+    EXPECT_NEAR(prior_at(text, 9, 'F', 4), 0.209936, 1e-5);
+    EXPECT_EQ(prior_at(text, 9, 'E', 5), -1);
+}
+
+TEST_F(KataGo, SaysTheLargeBoardAsKataGoDoes) {
+    guest.say("boardsize 19");
+    guest.say("kata-set-rules chinese");
+    guest.say("komi 7.5");
+    const auto text = guest.ask("kata-raw-nn 0");
+    EXPECT_NEAR(number_of(text, "whiteWin"), 0.524470, 2e-6);
+    EXPECT_NEAR(number_of(text, "whiteLoss"), 0.475457, 2e-6);
+    EXPECT_NEAR(number_of(text, "noResult"), 0.000073, 2e-6);
+    EXPECT_NEAR(number_of(text, "whiteLead"), -0.183, 2e-3);
+    EXPECT_NEAR(number_of(text, "whiteScoreSelfplaySq"), 976.777, 2e-2);
+    for (const auto& [column, row, prior] : {std::tuple{'C', 17, 0.031055},
+                                             {'D', 17, 0.080097},
+                                             {'Q', 17, 0.087696},
+                                             {'R', 17, 0.016749},
+                                             {'C', 16, 0.083175},
+                                             {'D', 16, 0.045550},
+                                             {'Q', 16, 0.038541},
+                                             {'R', 16, 0.074604}})
+        EXPECT_NEAR(prior_at(text, 19, column, row), prior, 1e-5) << column << row;
+}
+
+// What it says in so many digits does not depend on what the search runs, unless that was asked.
+TEST_F(KataGo, ACoarsePrecisionShowsOnlyWhereItWasAskedFor) {
+    const auto exact = guest.ask("kata-raw-nn 0");
+    ASSERT_EQ(guest.say("kata-set-param Precision int8"), "=");
+    EXPECT_EQ(guest.ask("kata-get-param Precision"), "int8");
+    const auto coarse = guest.ask("kata-raw-nn 0");
+    EXPECT_NE(coarse, exact);
+    EXPECT_NEAR(number_of(coarse, "whiteWin"), number_of(exact, "whiteWin"), 0.05);
+    ASSERT_EQ(guest.say("kata-set-param Precision fp32"), "=");
+    EXPECT_EQ(guest.ask("kata-raw-nn 0"), exact);
+    EXPECT_TRUE(has(guest.say("kata-set-param Precision half"),
+                    "Precision must be one of auto, fp32, bf16, int8, int16, not half"));
 }
 
 TEST_F(KataGo, AllIsEverySymmetry) {
@@ -109,9 +173,12 @@ TEST_F(OwnNetwork, IsRefusedByNameWhereItDoesNotFit) {
 TEST_F(OwnNetwork, ThatYieldsNoNumbersStillPlaysALegalMove) {
     auto graph = fake::small_network<go::Go>();
     for (auto& node : graph.nodes)
-        if (node.operation == nn::Operation::convolution)
+        if (node.operation == nn::Operation::convolution || node.operation == nn::Operation::dense)
             for (float& weight : node.weights[0].values) weight *= 1e30f;
     GtpGuest guest;
+    // What is to be calibrated is refused.
+    EXPECT_TRUE(has(guest.say("kata-set-param WeightsFile " + saved(graph)), "no number"));
+    ASSERT_EQ(guest.say("kata-set-param Precision fp32"), "=");
     ASSERT_EQ(guest.say("kata-set-param WeightsFile " + saved(graph)), "=");
     const auto answer = guest.say("genmove b");
     EXPECT_TRUE(answer.starts_with("= ")) << answer;

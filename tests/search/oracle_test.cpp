@@ -1,47 +1,29 @@
 // Games and networks together through the evaluator: what the networks say of positions, against
 // what KataGo, lc0 and Leela Zero answer themselves.
+#include "tests/search/oracle.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
-#include "engine/chess/chess.h"
-#include "engine/encoding.h"
-#include "engine/go/go.h"
-#include "search/network.h"
-#include "search/network_evaluator.h"
+#include "search/load_network.h"
 
 namespace {
 
 using Json = nlohmann::json;
-
-std::filesystem::path shared_data() {
-    if (const char* folder = std::getenv("SANBAN_SHARED"))
-        return std::filesystem::path(folder) / "data";
-    return std::filesystem::path(SANBAN_SOURCE_DIR) / "../shared/data";
-}
-
-std::vector<Json> lines_of(const std::filesystem::path& path) {
-    std::vector<Json> lines;
-    std::ifstream in(path);
-    for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
-    return lines;
-}
 
 // A network asked through the search's evaluator.
 template <class G>
 class Net {
    public:
     explicit Net(const std::filesystem::path& path)
-        : source_(search::load_network(path.string(), nn::Precision::fp32)),
-          evaluator_(source_.make_evaluator()) {}
+        : source_(search::load_network(path.string(), nn::Precision::fp32, G())),
+          evaluator_(source_->make_evaluator()) {}
 
     search::Evaluation answer(const G& game, int symmetry = 0) {
-        source_.check(game);
+        source_->check(game);
         search::Evaluation answer;
         const auto moves = game.legal_moves();
         const search::Query<G> query{&game, &moves, symmetry, &answer};
@@ -58,29 +40,18 @@ class Net {
     }
 
    private:
-    search::NetworkSource<G> source_;
+    std::shared_ptr<const search::NetworkSource<G>> source_;
     std::unique_ptr<search::Evaluator<G>> evaluator_;
 };
 
-go::Go game_of(const Json& line) {
-    go::Go game(line["size"].get<int>(), go::Komi::from_points(line["komi"].get<double>()),
-                go::rules_from_text(line["rules"].get<std::string>()));
-    for (const auto& turn : line["moves"]) {
-        const auto player = turn[0] == "b" ? engine::Player::first : engine::Player::second;
-        game.set_to_play(player);
-        game.play(*game.move_from_text(turn[1].get<std::string>()));
-    }
-    return game;
-}
-
-void check_katago(const char* network, const char* oracle) {
-    const auto path = shared_data() / "nets" / network;
+void check_katago(const char* network, const char* answers) {
+    const auto path = oracle::network(network);
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the shared data is not there";
     Net<go::Go> net(path);
     int number = 0;
-    for (const auto& line : lines_of(shared_data() / "oracle" / oracle)) {
-        SCOPED_TRACE(testing::Message() << oracle << " line " << ++number);
-        const auto game = game_of(line);
+    for (const auto& line : oracle::lines_of(answers)) {
+        SCOPED_TRACE(testing::Message() << answers << " line " << ++number);
+        const auto game = oracle::go_positions(line).back();
         const auto answer = net.answer(game);
         const bool white = game.to_play() == engine::Player::second;
         EXPECT_NEAR(white ? answer.win : answer.loss, line["win"].get<double>(), 1e-4);
@@ -121,19 +92,13 @@ TEST(Oracle, KatagoNestedBottleneck) {
 }
 
 TEST(Oracle, Maia) {
-    const auto path = shared_data() / "nets" / "maia-1900.pb.gz";
+    const auto path = oracle::network("maia-1900.pb.gz");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the shared data is not there";
     Net<chess::Chess> net(path);
     int number = 0;
-    for (const auto& line : lines_of(shared_data() / "oracle" / "lc0-maia-1900.jsonl")) {
+    for (const auto& line : oracle::lines_of("lc0-maia-1900.jsonl")) {
         SCOPED_TRACE(testing::Message() << "line " << ++number);
-        auto game = line.contains("fen") ? chess::Chess::from_text(line["fen"].get<std::string>())
-                                         : chess::Chess();
-        for (const auto& text : line["moves"]) {
-            const auto move = game.move_from_text(text.get<std::string>());
-            ASSERT_TRUE(move) << text;
-            game.play(*move);
-        }
+        const auto game = oracle::chess_positions(line).back();
         const auto answer = net.answer(game);
         EXPECT_NEAR(answer.value(), line["value"].get<double>(), 5e-4);
         auto policy = net.policy(game, answer);
@@ -149,7 +114,7 @@ TEST(Oracle, Maia) {
 }
 
 TEST(Oracle, LeelaZero) {
-    const auto path = shared_data() / "nets" / "leela-zero-0k.txt.gz";
+    const auto path = oracle::network("leela-zero-0k.txt.gz");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "the shared data is not there";
     Net<go::Go> net(path);
     go::Go game(19);

@@ -1,0 +1,145 @@
+// A weight file to a network that plays a game: found, read, checked, and run in the precision that
+// was asked for, or in the fastest that loses nothing that play would notice. What quantised
+// precisions need to know, and our files do not tell, is found out here on games that the network
+// plays against itself, and remembered in the user's cache folder.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nn/backend.h"
+#include "nn/load.h"
+#include "search/calibrate.h"
+#include "search/fidelity.h"
+#include "search/known_networks.h"
+#include "search/network_evaluator.h"
+#include "search/sample_games.h"
+
+namespace search {
+
+namespace loading {
+
+constexpr bool quantised(nn::Precision precision) { return precision >= nn::Precision::int8; }
+
+template <engine::Encoded G>
+struct Samples {
+    std::vector<G> seen;   // to calibrate on
+    std::vector<G> asked;  // to compare over, from other games
+};
+
+// How much computing a calibration may take: `work` floating-point operations for a board size.
+struct Budget {
+    double work = 1e11;
+    int lines = 8;
+    int least_plies = 12, most_plies = 160;
+    std::size_t most_positions = 64;  // of a board size, to calibrate on; half of it to compare
+
+    int plies(double flops) const {
+        return static_cast<int>(
+            std::clamp(work / (flops * lines), double(least_plies), double(most_plies)));
+    }
+    std::size_t positions(double flops) const {
+        return static_cast<std::size_t>(
+            std::clamp(work / 4 / flops, 8.0, static_cast<double>(most_positions)));
+    }
+};
+
+template <engine::Encoded G>
+Samples<G> sample(const std::shared_ptr<const Network>& network, const G& game) {
+    const auto& graph = network->graph();
+    const auto& encoding = engine::find_encoding<G>(graph.facts.encoding);
+    NetworkEvaluator<G> evaluator(network->in(nn::Precision::bf16));
+    engine::Random random(1);
+    const Budget budget;
+    Samples<G> samples;
+    for (const G& start : sample_starts(graph.facts.board, game)) {
+        const auto flops = static_cast<double>(nn::flop_count(graph, encoding.shape(start).height));
+        const auto lines =
+            sample_lines(evaluator, start, budget.lines, budget.plies(flops), random);
+        const auto each = budget.positions(flops) / (lines.size() / 2);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            if (i % 2 == 0)
+                pick(lines[i], std::max<std::size_t>(each, 1), samples.seen);
+            else
+                pick(lines[i], std::max<std::size_t>(each / 2, 1), samples.asked);
+    }
+    return samples;
+}
+
+// The fastest on a board of that side whose answers are close enough to those of fp32.
+template <engine::Encoded G>
+nn::Precision fastest(const std::shared_ptr<const Network>& reference,
+                      const nn::Calibration& calibration, std::span<const G> asked, int board) {
+    const auto& encoding = engine::find_encoding<G>(reference->graph().facts.encoding);
+    std::vector<G> timed(asked.begin(), asked.end());
+    std::erase_if(timed, [&](const G& game) { return encoding.shape(game).height != board; });
+    NetworkEvaluator<G> exact(reference);
+    const auto expected = answers_to<G>(exact, asked);
+    nn::Precision best = nn::Precision::fp32;
+    double least = seconds_for<G>(exact, timed);
+    for (const auto precision : {nn::Precision::bf16, nn::Precision::int8, nn::Precision::int16}) {
+        if (nn::served_precision(reference->graph(), precision, board) != precision) continue;
+        NetworkEvaluator<G> evaluator(reference->in(precision, calibration));
+        if (!tolerable(precision, fidelity_of(expected, answers_to<G>(evaluator, asked)))) continue;
+        const double seconds = seconds_for<G>(evaluator, timed);
+        if (seconds < least) best = precision;
+        least = std::min(least, seconds);
+    }
+    return best;
+}
+
+// What `choice` comes down to for this game. Adds to what is known whatever it has to find out.
+template <engine::Encoded G>
+nn::Precision settle(const std::shared_ptr<const Network>& exact, PrecisionChoice choice,
+                     const G& game, const std::string& key, KnownNetwork& known) {
+    const auto& graph = exact->graph();
+    const int board = engine::find_encoding<G>(graph.facts.encoding).shape(game).height;
+    const auto best = nn::served_precision(graph, nn::Precision::int16, board);
+    if (!choice && best == nn::Precision::fp32) return best;
+    if (const auto found = known.fastest.find(board); !choice && found != known.fastest.end())
+        choice = found->second;
+    if (choice && (!quantised(nn::served_precision(graph, *choice, board)) ||
+                   !known.calibration.maxima.empty()))
+        return *choice;
+    const auto samples = sample(exact, game);
+    if (known.calibration.maxima.empty()) known.calibration = calibrate<G>(graph, samples.seen);
+    if (!choice)
+        choice = known.fastest[board] = fastest<G>(exact, known.calibration, samples.asked, board);
+    remember(key, graph, known);
+    return *choice;
+}
+
+}  // namespace loading
+
+// The calibration that a file tells, else one from games of its network with itself; empty for a
+// network that answers less than play asks. Fails as load_network.
+template <engine::Encoded G>
+nn::Calibration calibration_of(const nn::Contents& contents, const G& game = G()) {
+    const auto& graph = contents.graph;
+    const bool plays = graph.output("policy") && (graph.output("wdl") || graph.output("value"));
+    if (!plays || !contents.calibration.maxima.empty()) return contents.calibration;
+    const auto exact = std::make_shared<const Network>(graph, nn::Precision::fp32);
+    return calibrate<G>(graph, loading::sample(exact, game).seen);
+}
+
+// Fails with engine::Error, one line, when there is no such file, when it is none, when its network
+// plays another game or does not serve the board of `game`, or when it yields no numbers. Blocks
+// for up to some seconds where a calibration is due.
+template <engine::Encoded G>
+std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
+                                                     PrecisionChoice choice, const G& game) {
+    const auto path = find_weights(name);
+    auto contents = nn::load_contents(path);
+    if (contents.graph.facts.name.empty()) contents.graph.facts.name = path.filename().string();
+    auto exact = std::make_shared<const Network>(std::move(contents.graph), nn::Precision::fp32);
+    NetworkSource<G>(exact).check(game);
+    auto known = recall(contents.key, exact->graph());
+    if (!contents.calibration.maxima.empty()) known.calibration = contents.calibration;
+    const auto precision = loading::settle(exact, choice, game, contents.key, known);
+    return std::make_shared<const NetworkSource<G>>(exact->in(precision, known.calibration), exact);
+}
+
+}  // namespace search
