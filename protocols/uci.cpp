@@ -234,13 +234,13 @@ void Uci::start_mate_think(const GoCommand& go) {
     const bool bounded = go.nodes || go.move_time || go.depth || go.has_clock();
     mate_think_.start(*session_, limits, [this, waits, bounded](const search::MateResult& result) {
         using Answer = search::MateResult::Answer;
+        mate_ = result;
         // A mate by a move that is not asked for is none.
         if (result.answer == Answer::mate && !allowed_.empty() &&
             std::find(allowed_.begin(), allowed_.end(), result.line[0]) == allowed_.end())
-            return;
-        mate_ = result;
-        if (waits || result.answer == Answer::unknown) return;
-        if (result.answer == Answer::no_mate && bounded) return;
+            mate_->answer = Answer::no_mate;
+        if (waits || mate_->answer == Answer::unknown) return;
+        if (mate_->answer == Answer::no_mate && bounded) return;
         mate_known_ = true;
         session_->interrupt();
     });

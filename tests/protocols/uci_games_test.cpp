@@ -72,9 +72,12 @@ TEST(UciGames, MatesOfUciAreMoves) {
     const auto none = guest.say("position startpos\ngo mate 1\n");
     EXPECT_NE(none.find("info string found no such mate\n"), none.npos);
     EXPECT_TRUE(last_line(none).starts_with("bestmove ")) << none;
-    const auto other = guest.say(
-        "position fen 6k1/5ppp/8/8/8/8/8/R3K3 w - - 0 1\ngo mate 1 nodes 200 searchmoves e1e2\n");
-    EXPECT_TRUE(last_line(other).starts_with("bestmove e1e2")) << other;
+    for (const std::string go :
+         {"go mate 1 nodes 200 searchmoves e1e2", "go mate 1 searchmoves e1e2"}) {
+        const auto other =
+            guest.say("position fen 6k1/5ppp/8/8/8/8/8/R3K3 w - - 0 1\n" + go + "\n");
+        EXPECT_TRUE(last_line(other).starts_with("bestmove e1e2")) << other;
+    }
 }
 
 TEST(UciGames, MatesOfUsiAreSolutions) {
