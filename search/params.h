@@ -65,8 +65,10 @@ struct SearchParams {
                              "visits at which a move's own value weighs as much as AMAF; 0: none"},
             Option<P, float>{"rave-exploration", &P::rave_exploration, 0, 10,
                              "c of UCB1 with RAVE"},
-            Option<P, float>{"prior-visits", &P::prior_visits, 0, 1e6f,
-                             "AMAF visits that a rollout policy's opinion of a move counts for"},
+            Option<P, float>{
+                "prior-visits", &P::prior_visits, 0, 1e6f,
+                "AMAF visits that a rollout policy's opinion of a move counts for in a "
+                "large search; fewer in a small one"},
             Option<P, float>{"cpuct", &P::cpuct, 0, 100, "c of PUCT"},
             Option<P, float>{"cpuct-factor", &P::cpuct_factor, 0, 100,
                              "growth of c with the logarithm of visits; 0: constant"},

@@ -64,6 +64,15 @@ struct Rave {
     float equivalence = 1000;
     float prior_visits = 0;
 
+    // For a search whose root has so many visits: few of them cannot make up for a wrong prior, so
+    // priors count a third at first, and in full from some thousands on.
+    Rave sized(std::uint32_t root_visits) const {
+        Rave rule = *this;
+        const auto n = static_cast<float>(root_visits);
+        rule.prior_visits *= (n + 100) / (n + 300);
+        return rule;
+    }
+
     class AtNode {
        public:
         AtNode(const Rave& rule, const Node& parent)

@@ -9,6 +9,7 @@
 #include <cassert>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -202,6 +203,15 @@ class TreeSearch {
 
     template <class SelectionRule>
     bool descend(Leaf<G>& leaf, const SelectionRule& rule, std::optional<engine::Move> first) {
+        const Node& root = tree_[tree_.root()];
+        if constexpr (std::is_same_v<SelectionRule, Rave>)
+            return walk(leaf, rule.sized(root.visits.load(std::memory_order_relaxed)), first);
+        else
+            return walk(leaf, rule, first);
+    }
+
+    template <class SelectionRule>
+    bool walk(Leaf<G>& leaf, const SelectionRule& rule, std::optional<engine::Move> first) {
         NodeId node = tree_.root();
         while (tree_[node].expanded() && (node == tree_.root() || !tree_[node].decided())) {
             Edge* edge = node == tree_.root()
