@@ -39,13 +39,17 @@ Graph graph_from_bytes(std::string_view bytes) {
 
 Graph load(const std::filesystem::path& path) { return load_contents(path).graph; }
 
+Contents contents_from_bytes(std::string_view bytes) {
+    Contents contents{graph_from_bytes(bytes), {}, key_of(bytes)};
+    if (is_safetensors(bytes))
+        contents.calibration = calibration_from_safetensors(bytes, contents.graph);
+    return contents;
+}
+
 Contents load_contents(const std::filesystem::path& path) {
     const auto bytes = engine::read_file(path);
     try {
-        Contents contents{graph_from_bytes(bytes), {}, key_of(bytes)};
-        if (is_safetensors(bytes))
-            contents.calibration = calibration_from_safetensors(bytes, contents.graph);
-        return contents;
+        return contents_from_bytes(bytes);
     } catch (const engine::Error& error) {
         engine::fail("{}: {}", path.string(), error.what());
     }

@@ -23,6 +23,7 @@ struct Contents {
     std::string key;  // tells files of other content apart
 };
 Contents load_contents(const std::filesystem::path& path);
+Contents contents_from_bytes(std::string_view bytes);
 
 // Writes our own format; whatever fails, an old file stays whole.
 void save(const Graph& graph, const std::filesystem::path& path,

@@ -15,6 +15,7 @@
 #include "protocols/flags.h"
 #include "search/bench.h"
 #include "search/network_bench.h"
+#include "selfplay/training/bench.h"
 
 namespace protocols {
 
@@ -59,7 +60,8 @@ void add_measured_network(CLI::App& app, MeasuredNetwork& flags) {
            [&flags](const std::string& text) { flags.precision = search::precision_choice(text); },
            "nn: as of play; the next more exact one where it is lacking")
         ->default_str("auto");
-    app.add_option("--threads", flags.settings.threads, "nn: each with an executor of its own")
+    app.add_option("--threads", flags.settings.threads,
+                   "nn, selfplay: each with an executor of its own")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     app.add_option("--batch", flags.settings.batch, "nn: positions at once")
@@ -80,8 +82,9 @@ int run_bench(Arguments arguments) {
     CLI::App app("Speed of rules, search, networks and learning, a figure a line", "sanban bench");
     std::string wanted;
     double seconds = 1;
-    app.add_option("group", wanted, "rules, search, nn or learn; rules and search unless given")
-        ->check(CLI::IsMember({"rules", "search", "nn", "learn"}));
+    app.add_option("group", wanted,
+                   "rules, search, nn, learn or selfplay; rules and search unless given")
+        ->check(CLI::IsMember({"rules", "search", "nn", "learn", "selfplay"}));
     app.add_option("--seconds", seconds, "for each figure")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
@@ -91,6 +94,8 @@ int run_bench(Arguments arguments) {
     for (const auto& [name, measure] : groups)
         if (wanted.empty() || wanted == name) print(measure(seconds));
     if (wanted == "nn") bench_networks(network, seconds);
+    if (wanted == "selfplay")
+        print(selfplay::training::bench_self_play({network.settings.threads, seconds, {}}));
     if (wanted == "learn") print(nn::training::bench_learner(seconds));
     return 0;
 }

@@ -21,6 +21,7 @@ int run_play(Arguments arguments);
 int run_learn(Arguments arguments);
 int run_match(Arguments arguments);
 int run_perft(Arguments arguments);
+int run_selfplay(Arguments arguments);
 int run_show(Arguments arguments);
 int run_solve(Arguments arguments);
 int run_train(Arguments arguments);

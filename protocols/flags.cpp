@@ -4,28 +4,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <thread>
+
+#include "search/embedded_weights.h"
 
 namespace protocols {
 
 void add_search_flags(CLI::App& app, search::SearchParams& params) {
-    for (const auto& row : engine::option_rows(params)) {
-        const std::string name(row.name);
-        std::string help(row.help);
-        if (!row.least.empty()) help += " (" + row.least + ".." + row.most + ")";
-        app.add_option_function<std::string>(
-               "--" + name,
-               [&params, name](const std::string& text) { engine::set_option(params, name, text); },
-               help)
-            ->default_str(row.value);
-    }
+    add_settings_flags(app, params, "Options");
 }
 
 void add_network_flags(CLI::App& app, NetworkFlags& flags) {
     app.add_option("--weights", flags.weights,
                    "network of sanban, KataGo, lc0 or Leela Zero; a bare name is looked for beside "
-                   "the executable, in the working folder and in the data folder");
+                   "the executable, in the working folder and in the data folder; none: UCT. "
+                   "Unless given the network that this program carries, if any");
     app.add_option_function<std::string>(
            "--precision",
            [&flags](const std::string& text) { flags.precision = search::precision_choice(text); },
@@ -33,6 +28,16 @@ void add_network_flags(CLI::App& app, NetworkFlags& flags) {
                        "would notice",
                        fmt::join(search::precision_choices(), ", ")))
         ->default_str("auto");
+}
+
+void choose_weights(NetworkFlags& flags, const search::SearchParams& params,
+                    std::string_view game) {
+    if (flags.weights == "none") return flags.weights.clear();
+    if (!flags.weights.empty() || params.method == search::Method::uct) return;
+    if (search::embedded_weights(game).empty())
+        fmt::print(stderr, "sanban carries no network for {}: games are played out (UCT)\n", game);
+    else
+        flags.weights = search::embedded_name;
 }
 
 void check_method(const search::SearchParams& params, const NetworkFlags& flags) {

@@ -86,7 +86,7 @@ bool Gtp::board_empty() const {
 
 void Gtp::resize(int size) {
     const auto start = emptied(now(), size);
-    session_.searcher().check(start);
+    session_.prepare_for(start);
     restart(start);
 }
 

@@ -43,6 +43,7 @@ int run_gtp_from(Arguments arguments, std::string_view first_line) {
     if (const auto status = parse_flags(app, arguments)) return *status;
     if (manual) return fmt::print("{}", Gtp::manual()), 0;
     settings.rules = go::rules_from_text(rules);
+    choose_weights(network, params, "go");
     check_method(params, network);
     settings.weights = network.weights;
     settings.precision = network.precision;

@@ -153,6 +153,7 @@ int run_play(Arguments arguments) {
     app.add_option("--komi", flags.komi, "of Go")->capture_default_str();
     app.add_option("--rules", flags.rules, "of Go, by name or as JSON")->capture_default_str();
     if (const auto status = parse_flags(app, arguments)) return *status;
+    choose_weights(flags.network, flags.params, flags.game);
     check_method(flags.params, flags.network);
     flags.terminal.human = flags.colour == "first" ? engine::Player::first : engine::Player::second;
     if (flags.game == "go") return play_go(flags);

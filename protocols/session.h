@@ -6,8 +6,12 @@
 // only the const functions.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,7 +62,9 @@ class Session {
     virtual search::SearchParams params() const = 0;
     virtual void set_params(const search::SearchParams& params) = 0;
     // Searches with the network of this file from now on; with games played out when the name is
-    // empty. Fails, all being as before, when the file or its game or board is wrong.
+    // empty. Fails, all being as before, when the file or its game or board is wrong. The one that
+    // this program carries (search::embedded_name) gives way to games played out on boards that it
+    // does not serve.
     virtual void load_network(const std::string& file, search::PrecisionChoice precision) = 0;
     // Where the network's policy has a legal move; 0 without a network.
     virtual int policy_index(engine::Move move) const = 0;
@@ -184,16 +190,21 @@ class GameSession final : public Session {
     }
 
     void load_network(const std::string& file, search::PrecisionChoice precision) override {
-        if (file.empty()) return searcher_.set_network(nullptr);
         if constexpr (engine::Encoded<G>) {
-            auto source = search::load_network(file, precision, now());
-            searcher_.set_network(nullptr);
-            searcher_.set_position(now());
-            searcher_.set_network(std::move(source));
-            searcher_.warm_up();
+            if (file == search::embedded_name) return load_embedded(now(), precision);
+            auto source = file.empty() ? nullptr : search::load_network(file, precision, now());
+            set_network(now(), std::move(source));
+            embedded_.reset();
         } else {
-            engine::fail("no network plays {}", G::name);
+            if (!file.empty()) engine::fail("no network plays {}", G::name);
         }
+    }
+
+    // Before a game from such a start: fails when the network that was asked for does not serve it.
+    void prepare_for(const G& start) {
+        if (!embedded_) return searcher_.check(start);
+        if constexpr (engine::Encoded<G>)
+            if (!searcher_.has_network() || !serves(start)) load_embedded(start, *embedded_);
     }
 
     int policy_index(engine::Move move) const override {
@@ -202,6 +213,7 @@ class GameSession final : public Session {
     }
 
     void start(const search::Limits& limits, Report report, Report done) override {
+        if (embedded_) prepare_for(now());
         searcher_.set_position(now());
         auto with_ply = limits;
         with_ply.ply = static_cast<int>(games_.size()) - 1;
@@ -220,9 +232,35 @@ class GameSession final : public Session {
         return params;
     }
 
+    bool serves(const G& game) const try {
+        return searcher_.check(game), true;
+    } catch (const engine::Error&) {
+        return false;
+    }
+
+    void set_network(const G& game, std::shared_ptr<const search::EvaluatorSource<G>> source) {
+        searcher_.set_network(nullptr);
+        searcher_.set_position(game);
+        if (!source) return;
+        searcher_.set_network(std::move(source));
+        searcher_.warm_up();
+    }
+
+    void load_embedded(const G& game, search::PrecisionChoice precision) {
+        embedded_ = precision;
+        std::shared_ptr<const search::EvaluatorSource<G>> source;
+        try {
+            source = search::load_network(std::string(search::embedded_name), precision, game);
+        } catch (const engine::Error& error) {
+            fmt::print(stderr, "{}: games are played out (UCT)\n", error.what());
+        }
+        set_network(game, std::move(source));
+    }
+
     search::SearchParams params_;  // as they were given
     search::Searcher<G> searcher_;
-    std::vector<G> games_;  // the present state last
+    std::optional<search::PrecisionChoice> embedded_;  // in use: what this program carries
+    std::vector<G> games_;                             // the present state last
     std::function<void(G&)> house_rules_;
 };
 

@@ -96,6 +96,7 @@ int run_uci_from(Arguments arguments, std::string_view first_line) {
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
+    choose_weights(flags.network, flags.params, "chess");
     check_method(flags.params, flags.network);
     auto session = std::make_unique<GameSession<chess::Chess>>(flags.params);
     auto option = chess960(*session);
@@ -107,6 +108,7 @@ int run_usi_from(Arguments arguments, std::string_view first_line) {
     UciFlags flags;
     add_flags(app, flags);
     if (const auto status = parse_flags(app, arguments)) return *status;
+    choose_weights(flags.network, flags.params, "shogi");
     check_method(flags.params, flags.network);
     auto session = std::make_unique<GameSession<shogi::Shogi>>(flags.params);
     auto options = shogi_options(*session, std::make_shared<ShogiRules>());

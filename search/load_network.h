@@ -13,6 +13,7 @@
 #include "nn/backend.h"
 #include "nn/load.h"
 #include "search/calibrate.h"
+#include "search/embedded_weights.h"
 #include "search/fidelity.h"
 #include "search/known_networks.h"
 #include "search/network_evaluator.h"
@@ -112,6 +113,18 @@ nn::Precision settle(const std::shared_ptr<const Network>& exact, PrecisionChoic
     return *choice;
 }
 
+inline nn::Contents contents_of(const std::string& name, std::string_view game) {
+    if (name == embedded_name) {
+        const auto bytes = embedded_weights(game);
+        if (bytes.empty()) engine::fail("this build carries no network for {}", game);
+        return nn::contents_from_bytes(bytes);
+    }
+    const auto path = find_weights(name);
+    auto contents = nn::load_contents(path);
+    if (contents.graph.facts.name.empty()) contents.graph.facts.name = path.filename().string();
+    return contents;
+}
+
 }  // namespace loading
 
 // The calibration that a file tells, else one from games of its network with itself; empty for a
@@ -125,15 +138,14 @@ nn::Calibration calibration_of(const nn::Contents& contents, const G& game = G()
     return calibrate<G>(graph, loading::sample(exact, game).seen);
 }
 
-// Fails with engine::Error, one line, when there is no such file, when it is none, when its network
-// plays another game or does not serve the board of `game`, or when it yields no numbers. Blocks
-// for up to some seconds where a calibration is due.
+// `name`: of a file as find_weights takes it, or embedded_name. Fails with engine::Error, one line,
+// when there is no such file, when it is none, when its network plays another game or does not
+// serve the board of `game`, or when it yields no numbers. Blocks for up to some seconds where a
+// calibration is due.
 template <engine::Encoded G>
 std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
                                                      PrecisionChoice choice, const G& game) {
-    const auto path = find_weights(name);
-    auto contents = nn::load_contents(path);
-    if (contents.graph.facts.name.empty()) contents.graph.facts.name = path.filename().string();
+    auto contents = loading::contents_of(name, G::name);
     auto exact = std::make_shared<const Network>(std::move(contents.graph), nn::Precision::fp32);
     NetworkSource<G>(exact).check(game);
     auto known = recall(contents.key, exact->graph());

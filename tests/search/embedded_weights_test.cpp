@@ -5,9 +5,10 @@
 
 #include <filesystem>
 
+#include "engine/base/error.h"
 #include "engine/base/files.h"
 #include "engine/games.h"
-#include "nn/load.h"
+#include "search/load_network.h"
 
 namespace search {
 namespace {
@@ -25,10 +26,15 @@ TYPED_TEST(Embedded, IsTheFileOfItsGame) {
     EXPECT_TRUE(embedded == engine::read_file(file));
 }
 
-TYPED_TEST(Embedded, IsANetworkOfItsGame) {
+TYPED_TEST(Embedded, IsLoadedByItsName) {
     const auto bytes = embedded_weights(TypeParam::name);
-    if (bytes.empty()) GTEST_SKIP() << "built without a network for " << TypeParam::name;
-    EXPECT_EQ(nn::graph_from_bytes(bytes).facts.game, TypeParam::name);
+    const std::string name(embedded_name);
+    if (bytes.empty()) {
+        EXPECT_THROW(load_network(name, nn::Precision::fp32, TypeParam()), engine::Error);
+    } else {
+        const auto contents = nn::contents_from_bytes(bytes);
+        EXPECT_EQ(contents.graph.facts.game, TypeParam::name);
+    }
 }
 
 TEST(EmbeddedWeights, ThereIsNoneForAnotherGame) {
