@@ -124,12 +124,15 @@ class Writer {
         return past;
     }
 
+    // From the board as it stands, which differs by a few stones only.
     Board board_of(const Stones& stones) const {
-        Board board(size_);
+        Board board = game_.board();
         game_.board().for_each_point([&](int at) {
             const auto order = board.order(at);
-            if (stones[0][order]) board.set_up(at, Colour::black);
-            if (stones[1][order]) board.set_up(at, Colour::white);
+            const auto colour = stones[0][order]   ? Colour::black
+                                : stones[1][order] ? Colour::white
+                                                   : Colour::empty;
+            if (board.at(at) != colour) board.set_up(at, colour);
         });
         return board;
     }
