@@ -14,12 +14,14 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/files.h"
 #include "nn/load.h"
+#include "search/calibrate.h"
 #include "search/network_evaluator.h"
 #include "selfplay/records/segment.h"
 #include "selfplay/training/crew.h"
@@ -57,16 +59,19 @@ class Run {
     void fill_replay();
 
     Source published_network();
-    Source playing(const nn::Graph& graph) const {
+    Source playing(const nn::Graph& graph, const nn::Calibration& calibration) const {
         return std::make_shared<search::NetworkSource<G>>(
-            std::make_shared<const search::Network>(graph, nn::Precision::fp32));
+            std::make_shared<const search::Network>(graph, settings_.run.precision, calibration));
     }
+    nn::Calibration calibrate(const nn::Graph& graph);
+    std::vector<G> random_positions(int count);
 
     void play(const std::stop_token& stop);
     void record(std::vector<records::Game> games);
     void learn(const std::stop_token& stop);
     void publish(const std::stop_token& stop);
-    bool passes_gate(const nn::Graph& graph, const std::stop_token& stop);
+    bool passes_gate(const nn::Graph& graph, const nn::Calibration& calibration,
+                     const std::stop_token& stop);
     void measure(const std::stop_token& stop);
     void write_report();
     Quality held_out_quality();
@@ -222,7 +227,9 @@ void Run<G>::play(const std::stop_token& stop) {
     };
     crew_->run();
     while (!over(stop) && !enough()) {
-        record(crew_->take(std::chrono::milliseconds(100)));
+        // Games that end about the same time share a frame, and the disk's time.
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        record(crew_->take(std::chrono::milliseconds(50)));
         if (const auto line = progress_.due(standing())) say_(*line);
     }
     crew_->pause();
@@ -265,99 +272,6 @@ void Run<G>::learn(const std::stop_token& stop) {
     owed_play_ = seconds * (1 - share) / share;
 }
 
-// The network that self-play uses, from its file or, where there is none, from the student.
-template <engine::Encoded G>
-typename Run<G>::Source Run<G>::published_network() {
-    if (std::filesystem::exists(folder_.latest())) try {
-            return playing(nn::load(folder_.latest()));
-        } catch (const engine::Error& error) {
-            say_(fmt::format("{}; written anew", error.what()));
-        }
-    const auto graph = student_.newest();
-    nn::save(graph, folder_.latest());
-    return playing(graph);
-}
-
-template <engine::Encoded G>
-void Run<G>::publish(const std::stop_token& stop) {
-    constexpr int norm_samples = 1024;
-    student_.save();
-    published_ = student_.steps();
-    const auto graph = student_.playable(replay_.draw(norm_samples, student_.terms(), random_));
-    if (!settings_.run.gate || passes_gate(graph, stop)) {
-        nn::save(graph, folder_.latest());
-        crew_->set_network(playing(graph), static_cast<std::uint64_t>(student_.steps()));
-    }
-    grow_simulations();
-    auto entry = progress_.take_entry(standing());
-    entry.learned = student_.take_quality();
-    entry.held_out = held_out_quality();
-    entry.window = replay_.games();
-    progress_.set_quality(entry.held_out);
-    journal_.append(entry);
-}
-
-template <engine::Encoded G>
-bool Run<G>::passes_gate(const nn::Graph& graph, const std::stop_token& stop) {
-    nn::save(graph, folder_.candidate());
-    const auto verdict = judge(settings_, folder_.latest(), folder_.candidate(), threads_, stop);
-    say_(fmt::format("gate: step {} scored {:.1f} % of {} games and {}", student_.steps(),
-                     100 * verdict.tally.score(), verdict.tally.games(),
-                     verdict.passed ? "takes over" : "does not take over"));
-    return verdict.passed;
-}
-
-// A pair of games where measuring has had less than its share of the time.
-template <engine::Encoded G>
-void Run<G>::measure(const std::stop_token& stop) {
-    const double share = double{settings_.run.ladder_share};
-    if (!measures_ || share <= 0 || measure_seconds_ > share * since(started_)) return;
-    const auto begun = Clock::now();
-    try {
-        const double seconds = standing().state.seconds;
-        if (ladder_.wants_snapshot(seconds)) ladder_.keep(student_.steps(), seconds);
-        ladder_.measure(stop);
-    } catch (const engine::Error& error) {
-        say_(fmt::format("no more games to measure strength: {}", error.what()));
-        measures_ = false;
-    }
-    measure_seconds_ += since(begun);
-}
-
-template <engine::Encoded G>
-void Run<G>::write_report() {
-    reported_ = standing().state.seconds;
-    const auto* const game = replay_.lessons().newest();
-    engine::write_file(folder_.report(),
-                       report_html({settings_, journal_.entries(), ladder_.rungs(),
-                                    game ? sample_of<G>(*game) : SampleGame{}}));
-}
-
-template <engine::Encoded G>
-Quality Run<G>::held_out_quality() {
-    constexpr int samples = 1024;
-    if (replay_.held_out().positions() == 0) return {};
-    engine::Random random(1);  // so that two networks are asked about like positions
-    QualityTally tally;
-    const auto& drawn = replay_.draw_held_out(samples, student_.terms(), random);
-    tally.add(student_.judge(drawn), student_.terms(), samples);
-    return tally.mean();
-}
-
-// Along a straight line over the games played.
-template <engine::Encoded G>
-void Run<G>::grow_simulations() {
-    const auto& run = settings_.run;
-    const auto& actors = settings_.actors;
-    if (run.last_simulations == 0) return;
-    const double part =
-        std::min(1.0, static_cast<double>(state_.games) / std::max(run.growth_games, 1));
-    const double factor =
-        1 + part * (static_cast<double>(run.last_simulations) / actors.simulations - 1);
-    const auto grown = [&](int count) {
-        return std::max(1, static_cast<int>(std::lround(count * factor)));
-    };
-    crew_->set_simulations(grown(actors.simulations), grown(actors.fast_simulations));
-}
-
 }  // namespace selfplay::training
+
+#include "selfplay/training/run_publish.h"

@@ -62,26 +62,33 @@ TYPED_TEST(LessonOf, TheSearchsValueIsTheMoversOwn) {
     EXPECT_FLOAT_EQ(lesson.outcome[0] + lesson.outcome[1] + lesson.outcome[2], 1);
 }
 
+std::map<int, float> policy_of(const Lesson& lesson) {
+    std::map<int, float> policy;
+    for (std::size_t i = 0; i < lesson.moves.size(); ++i)
+        policy[lesson.moves[i]] = lesson.policy[i];
+    return policy;
+}
+
+// Whether it is what the record says of that turn, by the moves' places in the policy.
+template <class G>
+void expect_policy(const records::Game& record, std::size_t turn) {
+    const auto& encoding = engine::find_encoding<G>("alphazero");
+    const G game = position_of<G>(record, turn);
+    const auto lesson = lesson_of<G>(record, turn);
+    EXPECT_EQ(static_cast<int>(lesson.moves.size()), game.legal_moves().size());
+    auto taught = policy_of(lesson);
+    float sum = 0, shares = 0;
+    for (const auto& [move, part] : taught) sum += part;
+    EXPECT_NEAR(sum, turn % 2 == 0 ? 1 : 0, 1e-5);
+    for (const auto& share : record.policy(record.turns[turn])) shares += share.share;
+    for (const auto& share : record.policy(record.turns[turn]))
+        EXPECT_NEAR(taught[encoding.policy_index(game, share.move)], share.share / shares, 1e-5);
+}
+
 TYPED_TEST(LessonOf, ThePolicyIsOverTheLegalMovesAndSumsToOne) {
     const auto record = random_record(small_start<TypeParam>(), 2, 10, 2);
-    const auto& encoding = engine::find_encoding<TypeParam>("alphazero");
-    for (std::size_t turn = 0; turn < record.turns.size(); ++turn) {
-        const auto game = position_of<TypeParam>(record, turn);
-        const auto lesson = lesson_of<TypeParam>(record, turn);
-        ASSERT_EQ(static_cast<int>(lesson.moves.size()), game.legal_moves().size());
-        float sum = 0;
-        std::map<int, float> taught;
-        for (std::size_t i = 0; i < lesson.moves.size(); ++i) {
-            sum += lesson.policy[i];
-            taught[lesson.moves[i]] = lesson.policy[i];
-        }
-        EXPECT_NEAR(sum, turn % 2 == 0 ? 1 : 0, 1e-5);
-        float shares = 0;
-        for (const auto& share : record.policy(record.turns[turn])) shares += share.share;
-        for (const auto& share : record.policy(record.turns[turn]))
-            EXPECT_NEAR(taught[encoding.policy_index(game, share.move)], share.share / shares,
-                        1e-5);
-    }
+    for (std::size_t turn = 0; turn < record.turns.size(); ++turn)
+        expect_policy<TypeParam>(record, turn);
 }
 
 // The same game on the turned board.
@@ -100,32 +107,30 @@ records::Game turned(const records::Game& record, int symmetry) {
     return other;
 }
 
-// The evaluators turn a board the other way round than go::transformed.
-std::map<int, float> policy_of(const Lesson& lesson) {
-    std::map<int, float> policy;
-    for (std::size_t i = 0; i < lesson.moves.size(); ++i)
-        policy[lesson.moves[i]] = lesson.policy[i];
-    return policy;
+bool same(const Lesson& a, const Lesson& b) {
+    return a.planes == b.planes && a.globals == b.globals && policy_of(a) == policy_of(b) &&
+           a.ownership == b.ownership;
 }
 
+// Whether turning the planes of `record` by `symmetry` is turning its moves by `other`.
+bool commutes(const records::Game& record, std::string_view encoding, int symmetry, int other) {
+    const auto image = turned(record, other);
+    for (std::size_t turn = 0; turn < record.turns.size(); ++turn)
+        if (!same(lesson_of<go::Go>(record, turn, symmetry, encoding),
+                  lesson_of<go::Go>(image, turn, 0, encoding)))
+            return false;
+    return true;
+}
+
+// The evaluators turn a board the other way round than go::transformed.
 TEST(GoLessons, TurningTheLessonIsTurningTheGame) {
     const auto record = random_record(go::Go(5, {}, {.ko = go::Ko::positional}), 3, 40);
     for (const std::string_view encoding : {"alphazero", "katago-v7"})
         for (int symmetry = 0; symmetry < 8; ++symmetry) {
-            bool found = false;
-            // One of the game's symmetries is this one of the planes, the same at every turn.
-            for (int other = 0; other < 8; ++other) {
-                const auto image = turned(record, other);
-                bool same = true;
-                for (std::size_t turn = 0; turn < record.turns.size() && same; ++turn) {
-                    const auto a = lesson_of<go::Go>(record, turn, symmetry, encoding);
-                    const auto b = lesson_of<go::Go>(image, turn, 0, encoding);
-                    same = a.planes == b.planes && a.globals == b.globals &&
-                           policy_of(a) == policy_of(b) && a.ownership == b.ownership;
-                }
-                found = found || same;
-            }
-            EXPECT_TRUE(found) << encoding << " " << symmetry;
+            int found = 0;
+            for (int other = 0; other < 8; ++other)
+                found += commutes(record, encoding, symmetry, other);
+            EXPECT_EQ(found, 1) << encoding << " " << symmetry;
         }
 }
 

@@ -56,11 +56,14 @@ TEST(Pool, BoardsOfOneSideAtATime) {
     EXPECT_EQ(pool.draw_side(random), 7);
 }
 
-TEST(Replay, TheWindowGrowsByTheLawAndDropsTheOldest) {
+TEST(Replay, TheWindowGrowsByTheLaw) {
     const ReplaySettings law{.window = 1000, .window_exponent = 0.75f, .window_factor = 0.4f};
     EXPECT_EQ(window_of(law, 10), 1000u);
     EXPECT_EQ(window_of(law, 1000), 1000u);
     EXPECT_NEAR(static_cast<double>(window_of(law, 16000)), 1000 * (1 + 0.4 * 7 / 0.75), 2);
+}
+
+TEST(Replay, TheOldestGamesGo) {
     const ReplaySettings fixed{.window = 10, .window_factor = 0, .held_out = 0};
     Replay<go::Go> replay(fixed, "alphazero", 1);
     for (std::uint64_t i = 1; i <= 30; ++i)
@@ -94,6 +97,19 @@ TEST(Replay, TheSameGamesAreHeldOutAgain) {
     EXPECT_EQ(one.held_out().games(), other.held_out().games());
 }
 
+// Of a game that Black won, on 5x5, with 17 planes.
+void expect_black_won(const nn::training::Samples& samples, std::size_t i) {
+    const bool black = samples.inputs[0][(i * 17 + 16) * 25] == 1;
+    const auto outcome = samples.targets[1].numbers.subspan(3 * i, 3);
+    EXPECT_EQ(outcome[0], black ? 1 : 0);
+    EXPECT_EQ(outcome[2], black ? 0 : 1);
+    const auto& policy = samples.targets[0];
+    float sum = 0;
+    for (auto m = policy.starts[i]; m < policy.starts[i + 1]; ++m)
+        sum += policy.numbers[static_cast<std::size_t>(m)];
+    EXPECT_NEAR(sum, 1, 1e-5);
+}
+
 TEST(Replay, BatchesHoldTheLessonsOfTheirPositions) {
     ReplaySettings plain{.held_out = 0, .symmetries = false};
     Replay<go::Go> replay(plain, "alphazero", 2);
@@ -106,21 +122,11 @@ TEST(Replay, BatchesHoldTheLessonsOfTheirPositions) {
                                      {"score", Loss::score, 1}};
     engine::Random random(1);
     const auto& samples = replay.draw(8, terms, random);
-    ASSERT_EQ(samples.size, 8);
-    ASSERT_EQ(samples.board, 5);
+    EXPECT_EQ(samples.size, 8);
+    EXPECT_EQ(samples.board, 5);
     ASSERT_EQ(samples.inputs[0].size(), 8u * 17 * 25);
-    const auto& policy = samples.targets[0];
-    const auto& outcome = samples.targets[1];
-    ASSERT_EQ(policy.starts.size(), 9u);
-    for (std::size_t i = 0; i < 8; ++i) {
-        const bool black = samples.inputs[0][(i * 17 + 16) * 25] == 1;
-        EXPECT_EQ(outcome.numbers[3 * i], black ? 1 : 0);
-        EXPECT_EQ(outcome.numbers[3 * i + 2], black ? 0 : 1);
-        float sum = 0;
-        for (auto m = policy.starts[i]; m < policy.starts[i + 1]; ++m)
-            sum += policy.numbers[static_cast<std::size_t>(m)];
-        EXPECT_NEAR(sum, 1, 1e-5);
-    }
+    ASSERT_EQ(samples.targets[0].starts.size(), 9u);
+    for (std::size_t i = 0; i < 8; ++i) expect_black_won(samples, i);
     EXPECT_EQ(samples.targets[2].numbers.size(), 8u * 25);
 }
 

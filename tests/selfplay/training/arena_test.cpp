@@ -1,0 +1,91 @@
+// The gate and the ladder, with networks that know nothing of the game and differ in how gladly
+// they pass.
+#include <gtest/gtest.h>
+
+#include "nn/compose.h"
+#include "nn/load.h"
+#include "selfplay/training/ladder.h"
+#include "tests/temporary_folder.h"
+
+namespace selfplay::training {
+namespace {
+
+// Every position is even to it, and every point alike; a pass has the logit `pass`.
+nn::Graph ignorant(float pass_logit) {
+    constexpr int planes = 17;
+    nn::Graph graph;
+    graph.facts.game = "go";
+    graph.facts.encoding = "alphazero";
+    graph.facts.name = "ignorant";
+    const int x = nn::add_input(graph, "planes", {planes, true});
+    const int even = nn::add_convolution(graph, "even", x,
+                                         {{{1, planes, 1, 1}, std::vector<float>(planes, 0.0f)}});
+    const int mean = nn::add_pool(graph, "mean", even, nn::Pooling::mean);
+    nn::name_output(graph, "value",
+                    nn::add_activation(graph, "value.tanh", mean, nn::Activation::tanh));
+    const int pass = nn::add_dense(graph, "pass", mean, {{{1, 1}, {0.0f}}, {{1}, {pass_logit}}});
+    const int flat = nn::add_operation(graph, nn::Operation::flatten, "flat", {even});
+    nn::name_output(
+        graph, "policy",
+        nn::add_operation(graph, nn::Operation::concatenate, "policy.all", {flat, pass}));
+    nn::validate(graph);
+    return graph;
+}
+
+struct Arena : testing::Test {
+    tests::TemporaryFolder temporary;
+    Settings settings = preset_settings("alphagozero", "go", 5);
+    std::filesystem::path eager = temporary.path() / "eager.safetensors";
+    std::filesystem::path tired = temporary.path() / "tired one.safetensors";
+
+    Arena() {
+        set_setting(settings, "komi", "0.5");
+        set_setting(settings, "precision", "fp32");
+        set_setting(settings, "gate-simulations", "12");
+        nn::save(ignorant(-4), eager);
+        nn::save(ignorant(8), tired);
+    }
+};
+
+TEST_F(Arena, TheGateIsThePapers) {
+    EXPECT_EQ(settings.run.gate_games, 400);
+    EXPECT_FLOAT_EQ(settings.run.gate_score, 0.55f);
+}
+
+TEST_F(Arena, TheGatePlaysAllItsGamesAndJudgesByTheirScore) {
+    set_setting(settings, "gate-games", "20");
+    const auto verdict = judge(settings, tired, eager, 1, {});
+    EXPECT_EQ(verdict.tally.games(), 20);
+    EXPECT_EQ(verdict.passed, verdict.tally.score() > 0.55);
+}
+
+TEST_F(Arena, AGateThatIsInterruptedLetsNothingPass) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_FALSE(judge(settings, tired, eager, 1, stop.get_token()).passed);
+}
+
+TEST_F(Arena, TheLadderKeepsNetworksAndResults) {
+    const RunFolder folder(temporary.path() / "run");
+    std::filesystem::copy_file(eager, folder.latest());
+    set_setting(settings, "ladder-simulations", "8");
+    {
+        Ladder ladder(folder, settings, 1);
+        EXPECT_TRUE(ladder.wants_snapshot(0));
+        ladder.keep(100, 60);
+        EXPECT_FALSE(ladder.wants_snapshot(70));
+        EXPECT_TRUE(ladder.wants_snapshot(60 + 30 * 60));
+        ladder.measure({});
+        ASSERT_NE(ladder.newest(), nullptr);
+        EXPECT_EQ(ladder.newest()->games, 2);
+    }
+    const Ladder again(folder, settings, 1);
+    ASSERT_NE(again.newest(), nullptr);
+    EXPECT_EQ(again.newest()->name, "step 100");
+    EXPECT_EQ(again.newest()->games, 2);
+    EXPECT_EQ(again.newest()->seconds, 60);
+    EXPECT_GT(again.newest()->strength.deviation, 0);
+}
+
+}  // namespace
+}  // namespace selfplay::training
