@@ -46,7 +46,7 @@ TEST(Uci, FindsAWinInOneAndEndsWithBestmove) {
     const auto answer = guest.say("position startpos moves 1 4 2 5\ngo nodes 500\n");
     EXPECT_TRUE(last_line(answer).starts_with("bestmove 3")) << answer;
     EXPECT_TRUE(has(answer, "info depth "));
-    EXPECT_TRUE(has(answer, " score cp "));
+    EXPECT_TRUE(has(answer, " score mate 1 ")) << answer;
     EXPECT_TRUE(has(answer, " multipv 1 pv 3\n"));
 }
 
