@@ -1,4 +1,7 @@
 // sanban: one program, one table of subcommands.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
 #include <iostream>
 #include <span>
 
@@ -36,6 +39,8 @@ void describe(std::ostream& out) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+    // Standard output belongs to the protocol.
+    spdlog::set_default_logger(spdlog::stderr_color_mt("sanban"));
     const std::span arguments(argv, static_cast<std::size_t>(argc));
     if (argc < 2) return protocols::run_bare(arguments.subspan(1));
     const std::string_view wanted = arguments[1];

@@ -33,7 +33,7 @@ struct Samples {
 
 // How much computing a calibration may take: `work` floating-point operations for a board size.
 struct Budget {
-    double work = 1e11;
+    double work = 5e10;
     int lines = 8;
     int least_plies = 12, most_plies = 160;
     std::size_t most_positions = 64;  // of a board size, to calibrate on; half of it to compare
