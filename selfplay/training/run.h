@@ -82,6 +82,10 @@ class Run {
     }
     bool over(const std::stop_token& stop) const;
     Standing standing() const;
+    bool may_learn() const {
+        return state_.games >= static_cast<std::uint64_t>(settings_.run.first_games) &&
+               replay_.lessons().positions() > 0;
+    }
     double samples_due() const {
         return double{settings_.run.ratio} * static_cast<double>(new_positions_) -
                static_cast<double>(samples_) - forgiven_;
@@ -204,7 +208,8 @@ void Run<G>::run(const std::stop_token& stop) {
     progress_.begin(standing());
     while (!over(stop)) {
         play(stop);
-        if (!over(stop)) learn(stop);
+        // After the last games as well: they were asked for to be learned from.
+        if (!stop.stop_requested() && may_learn()) learn(stop);
         if (!over(stop)) measure(stop);
         const double seconds = standing().state.seconds;
         if (reported_ < 0 || seconds >= reported_ + 60.0 * settings_.run.report_minutes)
@@ -221,9 +226,7 @@ void Run<G>::play(const std::stop_token& stop) {
     const auto begun = Clock::now();
     const double wanted = double{1} * burst_ * settings_.learn.batch;
     const auto enough = [&] {
-        return since(begun) >= owed_play_ && samples_due() >= wanted &&
-               state_.games >= static_cast<std::uint64_t>(settings_.run.first_games) &&
-               replay_.lessons().positions() > 0;
+        return since(begun) >= owed_play_ && samples_due() >= wanted && may_learn();
     };
     crew_->run();
     while (!over(stop) && !enough()) {
