@@ -193,16 +193,17 @@ TEST(Gumbel, ManyThreadsShareOnePlan) {
             for (int i = 0; i < 1600; ++i) ++count[root.next().code];
         });
     for (auto& thread : threads) thread.join();
-    int given = 0, most = 0;
+    int given = 0, least = 6400;
     for (std::size_t i = 0; i < 16; ++i) {
         int sum = 0;
         for (const auto& count : counts) sum += count[i];
         given += sum;
-        most = std::max(most, sum);
+        least = std::min(least, sum);
     }
     EXPECT_EQ(given, 6400);
-    // 100, 200, 400 and 800 a phase for those that get to the end.
-    EXPECT_NEAR(most, 1500, 50);
+    // All of the first phase, which is known from the start. When a later one begins hangs on the
+    // thread that ranks its candidates: nobody waits for that.
+    EXPECT_GE(least, 100);
 }
 
 }  // namespace
