@@ -85,6 +85,7 @@ class Actor {
                 taught_.load(relaxed), resigned_.load(relaxed)};
     }
     const ResignWatch& resignation() const { return watch_; }
+    int simulations() const { return settings_.simulations; }  // of a full search
 
    private:
     using Judge = search::NetworkLeaf<G>;

@@ -3,6 +3,7 @@
 // from one thread.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -59,6 +60,14 @@ class Crew {
     }
     void set_simulations(int full, int fast) {
         for (auto& actor : actors_) actor->set_simulations(full, fast);
+    }
+    int simulations() const { return actors_.front()->simulations(); }  // of a full search
+    // The highest of the actors', each of which watches its own games.
+    float resign_threshold() const {
+        float highest = -1;
+        for (const auto& actor : actors_)
+            highest = std::max(highest, actor->resignation().threshold());
+        return highest;
     }
 
     // The games finished since the last call; waits for the first one at most so long. Rethrows

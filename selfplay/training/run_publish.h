@@ -62,6 +62,8 @@ void Run<G>::publish(const std::stop_token& stop) {
     entry.learned = student_.take_quality();
     entry.held_out = held_out_quality();
     entry.window = replay_.games();
+    entry.simulations = crew_->simulations();
+    entry.resign_threshold = double{crew_->resign_threshold()};
     progress_.set_quality(entry.held_out);
     journal_.append(entry);
 }

@@ -114,6 +114,8 @@ TEST_F(TrainTest, LearnsAndGoesOn) {
     ASSERT_FALSE(journal.entries().empty());
     EXPECT_GE(journal.entries().back().games, 80u);
     EXPECT_GT(journal.entries().back().learned.policy_loss, 0);
+    EXPECT_EQ(journal.entries().back().simulations, 4);
+    EXPECT_GE(journal.entries().back().resign_threshold, -1);
 }
 
 TEST_F(TrainTest, AStopEndsItCleanly) {
