@@ -12,6 +12,11 @@
 
 namespace protocols {
 
+std::string help_of(const engine::OptionRow& row) {
+    if (row.least.empty()) return std::string(row.help);
+    return fmt::format("{} ({}..{})", row.help, row.least, row.most);
+}
+
 void add_search_flags(CLI::App& app, search::SearchParams& params) {
     add_settings_flags(app, params, "Options");
 }

@@ -13,20 +13,21 @@
 
 namespace protocols {
 
+// What --help says of a row: its help and its range.
+std::string help_of(const engine::OptionRow& row);
+
 // A flag for each row of the options of `settings`, which must outlive `app`; under the heading
 // `group` in the help. A bad value fails with engine::Error when the line is parsed.
 template <class Settings>
 void add_settings_flags(CLI::App& app, Settings& settings, const std::string& group) {
     for (const auto& row : engine::option_rows(settings)) {
         const std::string name(row.name);
-        std::string help(row.help);
-        if (!row.least.empty()) help += " (" + row.least + ".." + row.most + ")";
         app.add_option_function<std::string>(
                "--" + name,
                [&settings, name](const std::string& text) {
                    engine::set_option(settings, name, text);
                },
-               help)
+               help_of(row))
             ->default_str(row.value)
             ->group(group);
     }

@@ -77,24 +77,13 @@ struct Player {
     std::uint64_t steps = 0;
 };
 
-// The largest board of these games, empty.
-template <engine::Encoded G>
-G start_of(const Input& input) {
-    auto settings = input.play.actors;
-    settings.small_share = 0;
-    engine::Random random(0);
-    return training::first_position<G>(settings, random);
-}
-
 template <engine::Encoded G>
 Player<G> new_player(const Input& input) {
-    const G start = start_of<G>(input);
-    const auto& encoding = engine::find_encoding<G>(
-        training::encoding_names[static_cast<std::size_t>(input.fresh.encoding)]);
-    engine::Random random(input.play.seed);
-    auto graph = training::new_network(input.fresh, G::name, encoding.shape(start), random);
-    const auto precision = input.network.precision.value_or(
-        nn::served_precision(graph, nn::Precision::int16, encoding.shape(start).height));
+    const G start = training::largest_position<G>(input.play.actors);
+    auto graph = training::new_network(input.fresh, start, input.play.seed);
+    const int board = engine::find_encoding<G>(input.fresh.encoding_name()).shape(start).height;
+    const auto precision =
+        input.network.precision.value_or(nn::served_precision(graph, nn::Precision::int16, board));
     const search::Network exact(graph, nn::Precision::fp32);
     const auto calibration = precision >= nn::Precision::int8
                                  ? search::calibration_of<G>({graph, {}, {}}, start)
@@ -105,8 +94,8 @@ Player<G> new_player(const Input& input) {
 template <engine::Encoded G>
 Player<G> player_of(const Input& input) {
     if (input.network.weights.empty()) return new_player<G>(input);
-    auto network =
-        search::load_network<G>(input.network.weights, input.network.precision, start_of<G>(input));
+    auto network = search::load_network<G>(input.network.weights, input.network.precision,
+                                           training::largest_position<G>(input.play.actors));
     const auto steps = network->network()->graph().facts.steps;
     return {std::move(network), static_cast<std::uint64_t>(steps)};
 }

@@ -1,13 +1,13 @@
 #include "protocols/setting_flags.h"
 
+#include "protocols/flags.h"
+
 namespace protocols {
 
 void add_setting_flags(CLI::App& app, SettingTexts& texts) {
     for (const auto& row : selfplay::training::setting_rows({})) {
         const std::string name(row.name);
-        std::string help(row.help);
-        if (!row.least.empty()) help += " (" + row.least + ".." + row.most + ")";
-        app.add_option("--" + name, texts[name], help)
+        app.add_option("--" + name, texts[name], help_of(row))
             ->default_str(row.value)
             ->group("Settings; defaults are those of the preset laptop");
     }

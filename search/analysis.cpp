@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace search {
 
@@ -46,10 +47,16 @@ std::vector<Candidate> candidates(const Tree& tree, const MoveFilter& filter) {
 // Sure wins first and sure losses last.
 int rank(Ending ending) { return ending == Ending::win ? 0 : ending == Ending::loss ? 2 : 1; }
 
+// Which fate a player would rather have, as the player sees it: the quick win, the late loss. Empty
+// where they are as good as each other.
+std::optional<bool> happier(Ending a, int plies_a, Ending b, int plies_b) {
+    if (rank(a) != rank(b)) return rank(a) < rank(b);
+    if (plies_a == plies_b || rank(a) == 1) return std::nullopt;
+    return a == Ending::win ? plies_a < plies_b : plies_a > plies_b;
+}
+
 bool better(const Candidate& a, const Candidate& b) {
-    if (rank(a.ending) != rank(b.ending)) return rank(a.ending) < rank(b.ending);
-    if (a.ending == Ending::win && a.plies != b.plies) return a.plies < b.plies;
-    if (a.ending == Ending::loss && a.plies != b.plies) return a.plies > b.plies;
+    if (const auto fate = happier(a.ending, a.plies, b.ending, b.plies)) return *fate;
     if (a.visits != b.visits) return a.visits > b.visits;
     if (a.visits > 0 && a.value != b.value) return a.value > b.value;
     return a.edge->packed_prior > b.edge->packed_prior;
@@ -87,9 +94,7 @@ bool likelier(const Node& a, const Node& b) {
     const auto ending = [](const Node& node) {
         return seen_before(node.ending.load(std::memory_order_relaxed));
     };
-    if (rank(ending(a)) != rank(ending(b))) return rank(ending(a)) < rank(ending(b));
-    if (ending(a) == Ending::win && a.plies != b.plies) return a.plies < b.plies;
-    if (ending(a) == Ending::loss && a.plies != b.plies) return a.plies > b.plies;
+    if (const auto fate = happier(ending(a), a.plies, ending(b), b.plies)) return *fate;
     return a.visits.load(std::memory_order_relaxed) > b.visits.load(std::memory_order_relaxed);
 }
 

@@ -68,9 +68,7 @@ template <engine::Game G>
 void Searcher<G>::prepare_root() {
     const auto edges = search_->tree().edges(search_->tree().root());
     if (params_.noise > 0 && !noisy_ && !edges.empty()) {
-        const float typical = 10 / static_cast<float>(edges.size());
-        search_->mix_root_noise(random_, params_.noise,
-                                params_.noise_alpha > 0 ? params_.noise_alpha : typical);
+        search_->mix_root_noise(random_, params_.noise, params_.noise_alpha);
         noisy_ = true;
     }
     const auto& filter = search_->filter();

@@ -115,10 +115,12 @@ class TreeSearch {
     void flip() { tree_.flip(); }
 
     // Mixes Dirichlet's noise into the priors of the expanded root: (1 - share) P + share
-    // Dir(alpha) (AlphaGo Zero). Each call mixes in more.
+    // Dir(alpha) (AlphaGo Zero); with an alpha of 0 it is 10 / legal moves (AlphaZero's, about).
+    // Each call mixes in more.
     void mix_root_noise(engine::Random& random, float share, float alpha) {
         const auto edges = tree_.edges(tree_.root());
-        auto priors = dirichlet(random, edges.size(), alpha);
+        const float usual = 10 / static_cast<float>(edges.size());
+        auto priors = dirichlet(random, edges.size(), alpha > 0 ? alpha : usual);
         for (std::size_t i = 0; i < edges.size(); ++i)
             priors[i] = (1 - share) * edges[i].prior() + share * priors[i];
         tree_.replace_root_priors(priors);

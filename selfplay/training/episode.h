@@ -126,7 +126,7 @@ class Episode {
         if (settings_.exploration == Exploration::gumbel)
             gumbel_.emplace(search_.tree(), search_.filter(), target_, gumbel_params(), random_);
         else if (kind_ == Kind::full)
-            mix_noise();
+            search_.mix_root_noise(random_, settings_.noise_share, settings_.noise_alpha);
         else  // what is left of the search before counts
             done_ += static_cast<int>(root().visits) - 1;
     }
@@ -136,12 +136,6 @@ class Episode {
         params.considered = settings_.candidates;
         params.scale = settings_.gumbel_scale;
         return params;
-    }
-
-    void mix_noise() {
-        const auto alpha = settings_.noise_alpha > 0 ? settings_.noise_alpha
-                                                     : 10 / static_cast<float>(edges().size());
-        search_.mix_root_noise(random_, settings_.noise_share, alpha);
     }
 
     // That the descent must begin with; the same until the descent comes off.

@@ -39,9 +39,6 @@ class Lecture {
     void run(const std::stop_token& stop);
 
    private:
-    std::string_view encoding() const {
-        return encoding_names[static_cast<std::size_t>(settings_.network.encoding)];
-    }
     nn::Graph start(const records::Game& game) const;
     void read(Replay<G>& replay) const;
     void tell(Replay<G>& replay, nn::training::Learner& learner, QualityTally& tally) const;
@@ -69,16 +66,15 @@ void Lecture<G>::read(Replay<G>& replay) const {
 template <engine::Encoded G>
 nn::Graph Lecture<G>::start(const records::Game& game) const {
     if (input_.weights) return nn::load(*input_.weights);
-    engine::Random random(static_cast<std::uint64_t>(settings_.run.seed));
-    const auto shape = engine::find_encoding<G>(encoding()).shape(G::from_text(game.start));
-    return new_network(settings_.network, G::name, shape, random);
+    return new_network(settings_.network, G::from_text(game.start),
+                       static_cast<std::uint64_t>(settings_.run.seed));
 }
 
 template <engine::Encoded G>
 void Lecture<G>::run(const std::stop_token& stop) {
     auto replay_settings = settings_.replay;
     replay_settings.window = 100'000'000;  // all there are
-    Replay<G> replay(replay_settings, encoding(), input_.threads);
+    Replay<G> replay(replay_settings, settings_.network.encoding_name(), input_.threads);
     read(replay);
     const auto graph = start(*replay.lessons().newest());
     nn::training::Learner learner(graph, learner_settings(settings_.learn, graph, input_.threads));

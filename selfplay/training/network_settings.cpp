@@ -11,7 +11,7 @@ nn::Graph new_network(const NetworkSettings& settings, std::string_view game,
     const bool go = game == "go", flat = settings.heads == HeadKind::flat;
     nn::TowerDescription tower;
     tower.facts.game = game;
-    tower.facts.encoding = encoding_names[static_cast<std::size_t>(settings.encoding)];
+    tower.facts.encoding = settings.encoding_name();
     tower.facts.name = fmt::format("{} {}x{}", game, settings.blocks, settings.channels);
     tower.facts.source = "sanban train";
     tower.facts.board = go && !flat ? 0 : shape.height;

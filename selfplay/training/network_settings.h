@@ -31,6 +31,10 @@ struct NetworkSettings {
     bool ownership = true, score = true;  // Go
     bool moves_left = false;
 
+    std::string_view encoding_name() const {
+        return encoding_names[static_cast<std::size_t>(encoding)];
+    }
+
     static constexpr auto options() {
         using engine::Choice;
         using engine::Flag;
@@ -59,5 +63,12 @@ struct NetworkSettings {
 // cannot be built.
 nn::Graph new_network(const NetworkSettings& settings, std::string_view game,
                       const engine::EncodingShape& shape, engine::Random& random);
+// Likewise, for games that begin like `start`.
+template <engine::Encoded G>
+nn::Graph new_network(const NetworkSettings& settings, const G& start, std::uint64_t seed) {
+    engine::Random random(seed);
+    const auto shape = engine::find_encoding<G>(settings.encoding_name()).shape(start);
+    return new_network(settings, G::name, shape, random);
+}
 
 }  // namespace selfplay::training

@@ -51,11 +51,11 @@ class Run {
     using Clock = std::chrono::steady_clock;
     using Source = typename Crew<G>::Source;
 
-    std::string_view encoding() const {
-        return encoding_names[static_cast<std::size_t>(settings_.network.encoding)];
+    G first_game() const { return largest_position<G>(settings_.actors); }
+    nn::Graph fresh_network() const {
+        return new_network(settings_.network, first_game(),
+                           static_cast<std::uint64_t>(settings_.run.seed));
     }
-    G first_game() const;
-    nn::Graph fresh_network() const;
     void fill_replay();
 
     Source published_network();
@@ -128,7 +128,7 @@ Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int t
       say_(std::move(say)),
       archive_(folder_.games()),
       journal_(folder_.metrics()),
-      replay_(settings.replay, encoding(), threads),
+      replay_(settings.replay, settings.network.encoding_name(), threads),
       student_(fresh_network(), settings.learn, threads, folder_, say_),
       random_(engine::mixed(static_cast<std::uint64_t>(settings.run.seed),
                             static_cast<std::uint64_t>(student_.steps()))),
@@ -140,21 +140,6 @@ Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int t
     keep_settings(folder, settings);
     if (!archive_.damage().empty()) say_(archive_.damage());
     fill_replay();
-}
-
-template <engine::Encoded G>
-G Run<G>::first_game() const {
-    engine::Random random(0);
-    auto actors = settings_.actors;
-    actors.small_share = 0;
-    return first_position<G>(actors, random);
-}
-
-template <engine::Encoded G>
-nn::Graph Run<G>::fresh_network() const {
-    engine::Random random(static_cast<std::uint64_t>(settings_.run.seed));
-    const auto shape = engine::find_encoding<G>(encoding()).shape(first_game());
-    return new_network(settings_.network, G::name, shape, random);
 }
 
 // From the newest segment back until the window is full; then the games in their order.

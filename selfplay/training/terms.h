@@ -21,6 +21,14 @@ chess::Chess first_position<chess::Chess>(const ActorSettings& settings, engine:
 template <>
 shogi::Shogi first_position<shogi::Shogi>(const ActorSettings& settings, engine::Random& random);
 
+// On the largest of the boards that they are played on.
+template <class G>
+G largest_position(ActorSettings settings) {
+    settings.small_share = 0;
+    engine::Random random(0);
+    return first_position<G>(settings, random);
+}
+
 // Moves of both after which the game is cut off.
 int move_limit(const ActorSettings& settings, const go::Go& game);
 int move_limit(const ActorSettings& settings, const chess::Chess& game);

@@ -129,7 +129,9 @@ TEST(GoSearch, PlansItsClockForTheWholeGame) {
         for (int move = 0; move < size * size * 5 / 4; ++move) {
             const auto time = allot(left, moves_to_come(game), lag);
             if (move == 0) in_the_opening = time->soft;
-            if (move % 2 == 0) ASSERT_TRUE(left.spend(time->soft + lag)) << size << ' ' << move;
+            if (move % 2 == 0) {
+                ASSERT_TRUE(left.spend(time->soft + lag)) << size << ' ' << move;
+            }
             game.play(Go::pass);
         }
         EXPECT_GT(in_the_opening, Milliseconds(100));

@@ -21,7 +21,8 @@ nn::Graph outspoken_network() {
         auto* node = &graph.nodes[static_cast<std::size_t>(output.node)];
         while (node->weights.empty())
             node = &graph.nodes[static_cast<std::size_t>(node->inputs[0])];
-        for (float& weight : node->weights[0].values) weight *= output.name == "wdl" ? 30 : 100;
+        for (float& weight : node->weights[0].values)
+            weight *= output.name == "wdl" ? 30.0f : 100.0f;
     }
     return graph;
 }
