@@ -192,10 +192,10 @@ class TreeSearch {
     }
 
     Edge* edge_of(engine::Move move) {
-        for (Edge& edge : tree_.edges_to_enter(tree_.root()))
-            if (edge.move == move) return &edge;
-        assert(!"the first move is one of the root's");
-        return nullptr;
+        const auto edges = tree_.edges_to_enter(tree_.root());
+        const auto edge = std::ranges::find(edges, move, &Edge::move);
+        assert(edge != edges.end());  // The root's own plan names only the root's moves.
+        return &*edge;
     }
 
     template <class SelectionRule>
