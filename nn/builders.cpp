@@ -219,10 +219,12 @@ class Tower {
 
 // Both AlphaGo networks begin with these; no batch norm, as in 2016.
 int alphago_trunk(Builder& builder, int planes) {
-    const int channels = builder.graph().facts.channels;
+    auto& facts = builder.graph().facts;
+    if (facts.blocks == 0) facts.blocks = alphago_layers;
+    const int layers = facts.blocks, channels = facts.channels;
     int x = add_input(builder.graph(), "planes", {planes, true});
     x = builder.relu("layer1", builder.convolution("layer1", x, planes, channels, 5));
-    for (int layer = 2; layer <= alphago_layers; ++layer) {
+    for (int layer = 2; layer <= layers; ++layer) {
         const auto name = fmt::format("layer{}", layer);
         x = builder.relu(name, builder.convolution(name, x, channels, channels, 3));
     }
@@ -244,7 +246,10 @@ Graph build_alphago_policy(const Facts& facts, int planes, engine::Random& rando
     const Tensor zeros{{1, points}, std::vector<float>(static_cast<std::size_t>(points), 0.0f)};
     const int biased =
         add_operation(builder.graph(), Operation::point_bias, "last.points", {plane}, {zeros});
-    name_output(builder.graph(), "policy", builder.flat("policy", biased));
+    const int mean = add_pool(builder.graph(), "pass.mean", plane, Pooling::mean);
+    const int pass = builder.dense("pass", mean, 1, 1, last_layer);
+    name_output(builder.graph(), "policy",
+                builder.sum(Operation::concatenate, "all", builder.flat("policy", biased), pass));
     return builder.finish();
 }
 

@@ -38,9 +38,11 @@ struct TowerDescription {
 // not, or when a number is out of range.
 Graph build_tower(const TowerDescription& description, engine::Random& random);
 
-// Silver et al. 2016: 5x5, eleven 3x3 convolutions and 1x1 to one plane with a bias per point.
+// Silver et al. 2016: 5x5, eleven 3x3 convolutions (`blocks` of the facts, where it is not 0, in
+// all) and 1x1 to one plane with a bias per point; behind the points the pass, from the plane's
+// mean.
 Graph build_alphago_policy(const Facts& facts, int planes, engine::Random& random);
-// The same twelve convolutions, 1x1 to one plane, 256 ReLU, one tanh.
+// The same convolutions, 1x1 to one plane, 256 ReLU, one tanh.
 Graph build_alphago_value(const Facts& facts, int planes, engine::Random& random);
 
 // Dense layers with ReLU between them over the input "globals"; widths from input to output. Its

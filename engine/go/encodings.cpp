@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 
+#include "engine/go/alphago_planes.h"
 #include "engine/go/go.h"
 #include "engine/go/history_planes.h"
 #include "engine/go/katago_v7.h"
@@ -38,7 +39,8 @@ std::array<engine::Encoding<Go>, count> keyed(std::array<engine::Encoding<Go>, c
 
 std::span<const engine::Encoding<Go>> Go::encodings() {
     static const auto rows =
-        keyed(std::array{alphazero(), katago_v7(), leela_zero(), leela_zero_black()});
+        keyed(std::array{alphazero(), katago_v7(), leela_zero(), leela_zero_black(),
+                         alphago_policy(), alphago_value()});
     return rows;
 }
 

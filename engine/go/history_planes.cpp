@@ -8,12 +8,6 @@ namespace {
 
 constexpr int stone_planes = 2 * Go::remembered;
 
-int policy_index(const Go& game, Move move) {
-    const int size = game.size();
-    const auto point = game.point_of(move);
-    return point ? point->y * size + point->x : size * size;
-}
-
 template <int planes>
 engine::EncodingShape shape(const Go& game) {
     const int size = game.size();
@@ -52,12 +46,18 @@ void write_leela_zero(const Go& game, std::span<float> planes, std::span<float>)
 
 }  // namespace
 
+int point_index(const Go& game, Move move) {
+    const int size = game.size();
+    const auto point = game.point_of(move);
+    return point ? point->y * size + point->x : size * size;
+}
+
 engine::Encoding<Go> alphazero() {
-    return {"alphazero", shape<stone_planes + 1>, write_alphazero, policy_index, nullptr};
+    return {"alphazero", shape<stone_planes + 1>, write_alphazero, point_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero() {
-    return {"leela-zero-18", shape<stone_planes + 2>, write_leela_zero, policy_index, nullptr};
+    return {"leela-zero-18", shape<stone_planes + 2>, write_leela_zero, point_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero_black() {

@@ -8,6 +8,9 @@
 
 namespace go {
 
+// The place of a move in such a policy.
+int point_index(const Go& game, Move move);
+
 engine::Encoding<Go> alphazero();
 engine::Encoding<Go> leela_zero();
 engine::Encoding<Go> leela_zero_black();  // "leela-zero-18-black"

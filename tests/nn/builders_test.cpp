@@ -85,7 +85,7 @@ TEST(Builders, AlphaGo) {
     facts.board = 9;
     facts.channels = 12;
     const auto policy = build_alphago_policy(facts, 48, random);
-    EXPECT_EQ(parameter_count(policy), 48 * 12 * 25 + 12 + 11 * (12 * 12 * 9 + 12) + 12 + 81);
+    EXPECT_EQ(parameter_count(policy), 48 * 12 * 25 + 12 + 11 * (12 * 12 * 9 + 12) + 12 + 81 + 2);
     expect_sound(policy, 9);
     const auto value = build_alphago_value(facts, 49, random);
     EXPECT_EQ(parameter_count(value),
