@@ -7,9 +7,9 @@
 
 namespace go {
 
-// Rollouts from the empty board a second, uniformly random and by policy, and the nanoseconds that
-// copying a state takes, history aside and with the history of a long game. Blocks for `seconds` a
-// figure.
+// Rollouts from the empty board a second, uniformly random and by policy; the nanoseconds that
+// AlphaGo's rollout policy takes for a move, and that copying a state takes, history aside and with
+// the history of a long game. Blocks for `seconds` a figure.
 std::vector<engine::Figure> bench_rules(double seconds = 1);
 
 }  // namespace go

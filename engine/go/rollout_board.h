@@ -35,10 +35,11 @@ class RolloutBoard {
     // Likewise among those that `accept` is true of.
     template <Colour colour, class Accept>
     int play_random(engine::Random& random, Accept accept);
-    // A legal move.
+    // A legal move. Returns how many stones it takes: newly_empty(0) and so on until another move.
     template <Colour colour>
-    void play(int at);
+    int play(int at);
     void pass() { ko_ = 0; }
+    int newly_empty(int i) const { return empty_[static_cast<std::size_t>(empty_count_ - 1 - i)]; }
 
     static Point point_of(int at) { return {at % stride - 1, at / stride - 1}; }
     static int index(Point point) { return (point.y + 1) * stride + point.x + 1; }
@@ -60,6 +61,7 @@ class RolloutBoard {
     }
 
     int size() const { return size_; }
+    int ko() const { return ko_; }  // the index that it forbids, or 0
     Colour at(int at) const { return cell(at).colour; }
     template <Colour colour>
     bool is_legal(int at) const {
@@ -305,7 +307,7 @@ void RolloutBoard<most_size, tactical>::take(int at) {
 
 template <int most_size, bool tactical>
 template <Colour colour>
-void RolloutBoard<most_size, tactical>::play(int at) {
+int RolloutBoard<most_size, tactical>::play(int at) {
     constexpr auto enemy = opponent(colour);
     Cell& stone = cell(at);
     const bool in_enemy_eye = count(stone.sides, enemy) == 4;
@@ -331,6 +333,7 @@ void RolloutBoard<most_size, tactical>::play(int at) {
     });
     const bool takes_ko = in_enemy_eye && empty_count_ == before + 1;
     ko_ = takes_ko ? empty_[static_cast<std::size_t>(before)] : 0;
+    return empty_count_ - before;
 }
 
 template <int most_size, bool tactical>

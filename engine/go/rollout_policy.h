@@ -11,6 +11,7 @@
 #include "engine/base/random.h"
 #include "engine/go/patterns.h"
 #include "engine/go/rollout_board.h"
+#include "engine/go/rollout_tactics.h"
 
 namespace go {
 
@@ -47,7 +48,9 @@ class RolloutPolicy {
     template <Colour colour>
     void fit_patterns(int around);
     template <Colour colour>
-    int liberties_after(int at) const;
+    int liberties_after(int at) const {
+        return go::liberties_after<colour>(board_, at);
+    }
     template <Colour colour>
     bool is_blunder(int at, engine::Random& random) const;
     template <Colour colour>
@@ -121,22 +124,12 @@ void RolloutPolicy<most_size>::answer_atari() {
     }
 }
 
-// The chain's extension, and what can be captured beside it.
 template <int most_size>
 template <Colour colour>
 void RolloutPolicy<most_size>::save(int chain) {
-    const int out = board_.last_liberty(chain);
-    if (liberties_after<colour>(out) > 1) propose(out);
-    int stone = chain;
-    do {
-        for (const int beside : Board::neighbours(stone)) {
-            if (board_.at(beside) != opponent(colour) || !board_.in_atari(beside)) continue;
-            const int at = board_.last_liberty(beside);
-            if (at != out && count_ < most_proposed && board_.template is_legal<colour>(at))
-                propose(at);
-        }
-        stone = board_.next(stone);
-    } while (stone != chain);
+    for_each_rescue<colour>(board_, chain, [&](int at, bool) {
+        if (count_ < most_proposed) propose(at);
+    });
 }
 
 template <int most_size>
@@ -147,39 +140,6 @@ void RolloutPolicy<most_size>::fit_patterns(int around) {
             patterns_.template fit<colour>(board_.surroundings(at)) &&
             liberties_after<colour>(at) > 1)
             propose(at);
-}
-
-// How many liberties the mover's chain would have: 0 (suicide, and no move), 1, or 2 for more.
-template <int most_size>
-template <Colour colour>
-int RolloutPolicy<most_size>::liberties_after(int at) const {
-    if (board_.empty_neighbours(at) >= 2) return 2;
-    int known = 0;
-    const auto another = [&](int liberty) {
-        const bool differs = known != 0 && known != liberty;
-        known = liberty;
-        return differs;
-    };
-    const auto beside_it = Board::neighbours(at);
-    for (const int beside : beside_it) {
-        const auto there = board_.at(beside);
-        if (there == Colour::edge) continue;
-        if (there == Colour::empty) {
-            if (another(beside)) return 2;
-            continue;
-        }
-        auto left = board_.liberties(beside);
-        for (const int side : beside_it)
-            if (board_.head(side) == board_.head(beside)) left -= LibertySum(at);
-        if (there == colour) {
-            if (left.none()) continue;
-            if (!left.only_one() || another(left.the_one())) return 2;
-        } else if (left.none()) {
-            // Stones taken beside one's own chain leave liberties there as well.
-            if (another(beside) || board_.chain_size(beside) > 1) return 2;
-        }
-    }
-    return known != 0 ? 1 : 0;
 }
 
 template <int most_size>

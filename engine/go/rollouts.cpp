@@ -1,8 +1,14 @@
 #include "engine/go/rollouts.h"
 
+#include <algorithm>
+#include <numeric>
+#include <type_traits>
+
+#include "engine/go/linear_policy.h"
 #include "engine/go/rollout_board.h"
 #include "engine/go/rollout_policy.h"
 #include "engine/go/score.h"
+#include "engine/go/softmax_policy.h"
 
 namespace go {
 
@@ -41,11 +47,23 @@ struct ByPolicy {
     using Game = RolloutPolicy<most_size>;
 };
 
+namespace {
+
+template <class Policy, int most_size>
+auto start(const Policy* policy, const Go& from) {
+    if constexpr (std::is_same_v<Policy, LinearPolicies>)
+        return SoftmaxPolicy<most_size>(policy->rollout, from);
+    else
+        return typename Policy::template Game<most_size>(from);
+}
+
+}  // namespace
+
 // Returns Black's lead in area, and leaves the owners behind.
 template <class Policy>
 template <int most_size>
 int RolloutsBy<Policy>::play_on(const Go& from, engine::Random& random) {
-    typename Policy::template Game<most_size> rollout(from);
+    auto rollout = start<Policy, most_size>(policy_.get(), from);
     const int size = from.size(), most_moves = 3 * size * size;
     // The generator's state stays in registers.
     engine::Random local = random;
@@ -105,6 +123,7 @@ engine::RolloutResult RolloutsBy<Policy>::finished(const Go& game) {
 
 template class RolloutsBy<AtRandom>;
 template class RolloutsBy<ByPolicy>;
+template class RolloutsBy<LinearPolicies>;
 
 namespace {
 
@@ -125,6 +144,49 @@ void Rollouts::weigh(const Go& game, const MoveList& moves, std::vector<float>& 
                                 : game.size() <= 19 ? weigh_on<19>
                                                     : weigh_on<25>;
     weigh_on_board(game, moves, weights);
+}
+
+namespace {
+
+template <int most_size, Colour colour>
+void weigh_by_tree(const Factors& factors, const Go& game, const MoveList& moves,
+                   std::vector<float>& weights) {
+    using Board = RolloutBoard<most_size, true>;
+    const FeatureBoard<most_size> position(game);
+    std::vector<float> answers(static_cast<std::size_t>(Board::cell_count), 1.0f);
+    position.template for_each_answer<colour>(
+        [&](int at, int feature) { answers[static_cast<std::size_t>(at)] *= factors[feature]; });
+    for (const Move move : moves) {
+        float weight = 0;
+        const int at = move == Go::pass ? 0 : Board::index(*game.point_of(move));
+        if (const auto contact = at == 0 ? std::nullopt : position.template contact<colour>(at)) {
+            weight = factors.of_pattern(position.board().surroundings(at), colour) *
+                     factors[*contact] * answers[static_cast<std::size_t>(at)];
+            if (const auto line = position.line(at)) weight *= factors[*line];
+            position.template for_each_tree_feature<colour>(
+                at, [&](int feature) { weight *= factors[feature]; });
+        }
+        weights.push_back(weight);
+    }
+}
+
+}  // namespace
+
+void LinearRollouts::weigh(const Go& game, const MoveList& moves,
+                           std::vector<float>& weights) const {
+    constexpr float least = 1e-4f;
+    weights.clear();
+    const bool black = game.to_play() == Player::first;
+    const auto on = [&]<int size>() {
+        (black ? weigh_by_tree<size, Colour::black>
+               : weigh_by_tree<size, Colour::white>)(policy().tree, game, moves, weights);
+    };
+    game.size() <= 9    ? on.template operator()<9>()
+    : game.size() <= 13 ? on.template operator()<13>()
+    : game.size() <= 19 ? on.template operator()<19>()
+                        : on.template operator()<25>();
+    const float sum = std::accumulate(weights.begin(), weights.end(), 0.0f);
+    for (float& weight : weights) weight = std::max(sum > 0 ? weight / sum : 0, least);
 }
 
 }  // namespace go

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/go/go.h"
@@ -14,16 +16,23 @@ namespace go {
 template <class Policy>
 class RolloutsBy {
    public:
+    explicit RolloutsBy(std::shared_ptr<const Policy> policy = nullptr)
+        : policy_(std::move(policy)) {}
+
     // Superko is not looked at, and a rollout of 3 * size * size moves is cut off and scored as it
     // stands. Under territory rules the lead is the area's less what Black played more than White
     // before the rollout. A finished game has its own result.
     engine::RolloutResult play(const Go& from, engine::Random& random);
+
+   protected:
+    const Policy& policy() const { return *policy_; }
 
    private:
     template <int most_size>
     int play_on(const Go& from, engine::Random& random);
     engine::RolloutResult finished(const Go& game);
 
+    std::shared_ptr<const Policy> policy_;  // where it has something to say
     std::array<std::int8_t, most_points> owners_;
     std::array<std::int8_t, (max_size + 1) * (max_size + 1)> firsts_{};  // by index, edges 0
 };
@@ -38,6 +47,16 @@ class Rollouts : public RolloutsBy<ByPolicy> {
    public:
     // How good the moves of `game` look to the policy: positive, 1 that of a move of which nothing
     // is known; one a move.
+    void weigh(const Go& game, const MoveList& moves, std::vector<float>& weights) const;
+};
+
+// Moves by AlphaGo's rollout policy (linear_policy.h).
+struct LinearPolicies;
+class LinearRollouts : public RolloutsBy<LinearPolicies> {
+   public:
+    using RolloutsBy::RolloutsBy;
+    // How likely the tree policy is to play each of the moves of `game`; they sum to about 1. What
+    // it never plays is given a little.
     void weigh(const Go& game, const MoveList& moves, std::vector<float>& weights) const;
 };
 
