@@ -147,6 +147,9 @@ int run_play(Arguments arguments) {
         ->check(CLI::Range(0.001, 1e6))
         ->capture_default_str();
     app.add_option("--simulations", flags.terminal.simulations, "a move, instead of a time");
+    app.add_option(
+        "--save", flags.terminal.record,
+        "file that is written after every move (Go: SGF, chess: PGN, shogi: CSA or KIF)");
     app.add_option("--size", flags.size, "of the Go board")
         ->check(CLI::Range(go::min_size, go::max_size))
         ->capture_default_str();

@@ -35,6 +35,8 @@ void Terminal::run() {
     fmt::print(out_, "You are {}. Type a move ({}), or help.\n", name_of(settings_.human),
                view_.move_example);
     for (;;) {
+        // Now and not at the end, so that no signal or crash can lose the game.
+        if (!settings_.record.empty()) view_.save(settings_.record, resigned_);
         fmt::print(out_, "\n{}\n", view_.board());
         const bool over = resigned_ || session_.outcome() != engine::Outcome::ongoing;
         if (over)

@@ -17,6 +17,7 @@ struct TerminalSettings {
     engine::Player human = engine::Player::first;
     double seconds = 2;             // a move
     std::uint64_t simulations = 0;  // a move; 0: as time allows
+    std::string record;             // file that always holds the game so far; empty: none
 };
 
 // What a game shows and saves beyond what every session does.
