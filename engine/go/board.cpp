@@ -1,5 +1,6 @@
 #include "engine/go/board.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -34,22 +35,35 @@ Board::Board(int size) : size_(size) {
     for_each_point([this](int at) { cell(at) = Cell(Colour::empty); });
 }
 
+Board::Board(int size, const Stones& stones) : Board(size) {
+    std::size_t point = 0;
+    for_each_point([&](int at) {
+        if (stones[0][point]) put(at, Colour::black);
+        if (stones[1][point]) put(at, Colour::white);
+        ++point;
+    });
+}
+
 bool Board::holds(int at) const {
     return at > 0 && at < stride() * (size_ + 1) && cell(at).colour() != Colour::edge;
 }
 
 int Board::liberties(int at, int most) const {
+    const int sides = cell(head(at)).liberties();
+    if (sides <= 1) return std::min(sides, most);
+    // A point has four sides at most.
+    if (sides > 4 * (most - 1)) return most;
     std::bitset<most_cells> seen;
-    int count = 0;
-    for_each_stone(at, [&](int stone) {
-        if (count >= most) return;
+    int count = 0, stone = at;
+    do {
         for (const int beside : neighbours(stone))
             if (this->at(beside) == Colour::empty && !seen[static_cast<std::size_t>(beside)]) {
                 seen.set(static_cast<std::size_t>(beside));
                 ++count;
             }
-    });
-    return count < most ? count : most;
+        stone = next(stone);
+    } while (stone != at && count < most);
+    return std::min(count, most);
 }
 
 bool Board::fills_last_liberty(int at, int beside) const {

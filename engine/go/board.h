@@ -6,6 +6,7 @@
 // point shared by k stones counting k times. None are left exactly when no liberty is left.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -40,6 +41,17 @@ using Stones = std::array<PointSet, 2>;
 class Board {
    public:
     explicit Board(int size);
+    // With these stones, none of them without liberty.
+    Board(int size, const Stones& stones);
+    // Copies what boards of this size use.
+    Board(const Board& other) { *this = other; }
+    Board& operator=(const Board& other) {
+        size_ = other.size_;
+        key_ = other.key_;
+        stones_ = other.stones_;
+        std::copy_n(other.cells_.begin(), used_cells(), cells_.begin());
+        return *this;
+    }
 
     // The same stones; how their chains came about does not count.
     bool operator==(const Board& other) const {
@@ -109,7 +121,7 @@ class Board {
     // min(2s + 2, 4 (625 - s)) <= 834 empty sides.
     class Cell {
        public:
-        constexpr Cell() = default;
+        Cell() = default;
         constexpr explicit Cell(Colour colour, int at = 0)
             : bits_(static_cast<std::uint32_t>(colour) | word(at) << 2 | word(at) << 12) {}
         Colour colour() const { return static_cast<Colour>(bits_ & 3); }
@@ -122,9 +134,10 @@ class Board {
 
        private:
         static constexpr std::uint32_t word(int n) { return static_cast<std::uint32_t>(n); }
-        std::uint32_t bits_ = 0;
+        std::uint32_t bits_;
     };
 
+    std::size_t used_cells() const { return static_cast<std::size_t>((size_ + 2) * stride() + 1); }
     static bool is_stone(Colour colour) {
         return colour == Colour::black || colour == Colour::white;
     }

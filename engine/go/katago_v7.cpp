@@ -115,26 +115,13 @@ class Writer {
         if (ago == 0)
             return {game_.board(), game_.ko_point() ? game_.move_at(*game_.ko_point()).code : 0};
         const auto move = game_.move_before(ago);
-        if (!move || *move == Go::pass) return {board_of(game_.stones_before(ago)), 0};
+        if (!move || *move == Go::pass) return {{size_, game_.stones_before(ago)}, 0};
         // Playing the move again shows whether it left a ko.
-        LadderBoard past{board_of(game_.stones_before(ago + 1)), 0};
+        LadderBoard past{{size_, game_.stones_before(ago + 1)}, 0};
         if (past.board.at(move->code) != Colour::empty)
-            return {board_of(game_.stones_before(ago)), 0};
+            return {{size_, game_.stones_before(ago)}, 0};
         past.play(move->code, colour_of(ago % 2 == 0 ? ~game_.to_play() : game_.to_play()));
         return past;
-    }
-
-    // From the board as it stands, which differs by a few stones only.
-    Board board_of(const Stones& stones) const {
-        Board board = game_.board();
-        game_.board().for_each_point([&](int at) {
-            const auto order = board.order(at);
-            const auto colour = stones[0][order]   ? Colour::black
-                                : stones[1][order] ? Colour::white
-                                                   : Colour::empty;
-            if (board.at(at) != colour) board.set_up(at, colour);
-        });
-        return board;
     }
 
     void write_ladders(int included) {
@@ -170,10 +157,11 @@ class Writer {
     }
 
     void write_area() {
-        const auto owners = score(game_).owners;
+        const auto own = colour_of(game_.to_play());
+        const auto owners = area_owners(game_);
         game_.board().for_each_point([&](int at) {
-            if (const auto owner = owners[game_.board().order(at)])
-                set(*owner == game_.to_play() ? own_area : enemy_area, at);
+            if (const auto owner = owners[static_cast<std::size_t>(at)]; owner != Colour::empty)
+                set(owner == own ? own_area : enemy_area, at);
         });
     }
 

@@ -58,28 +58,30 @@ class Reader {
         add_saving_captures(board, stone_, moves);
         add_liberties(board, stone_, moves);
         for (const int move : moves) {
+            if (!may_play(position, move, owner_)) continue;
+            if (depth + 1 < most_depth_ && surely_escapes(board, move)) {
+                count_node();
+                return false;
+            }
             LadderBoard next = position;
-            if (!play(next, move, owner_)) continue;
+            next.play(move, owner_);
             if (!captured_on_attack(next, depth + 1)) return false;
             if (gave_up_) return false;
         }
         return true;
     }
 
-    bool play(LadderBoard& position, int move, Colour colour) const {
+    static bool may_play(const LadderBoard& position, int move, Colour colour) {
         const auto& board = position.board;
-        if (board.at(move) != Colour::empty || move == position.ko ||
-            board.is_suicide(move, colour))
-            return false;
-        position.play(move, colour);
-        return true;
+        return board.at(move) == Colour::empty && move != position.ko &&
+               !board.is_suicide(move, colour);
     }
 
     bool gave_up() const { return gave_up_; }
 
    private:
     bool captured_on_attack(const LadderBoard& position, int depth) {
-        if (++nodes_ > most_nodes) gave_up_ = true;
+        count_node();
         if (gave_up_) return false;
         if (depth >= most_depth_) return true;
         const auto& board = position.board;
@@ -92,12 +94,30 @@ class Reader {
         if (free_neighbours(board, moves[1]) > free_neighbours(board, moves[0]))
             moves = reversed(moves);
         for (const int move : moves) {
+            if (!may_play(position, move, opponent(owner_))) continue;
             LadderBoard next = position;
-            if (play(next, move, opponent(owner_)) && captured_on_defence(next, depth + 1))
-                return true;
+            next.play(move, opponent(owner_));
+            if (captured_on_defence(next, depth + 1)) return true;
             if (gave_up_) return false;
         }
         return false;
+    }
+
+    void count_node() {
+        if (++nodes_ > most_nodes) gave_up_ = true;
+    }
+
+    // Seen without playing it: the owner's move on the only liberty yields three or more.
+    bool surely_escapes(const Board& board, int move) const {
+        const auto beside = board.neighbours(move);
+        const auto is_chain = [&](int at) {
+            return board.at(at) == owner_ && board.head(at) == board.head(stone_);
+        };
+        if (std::none_of(beside.begin(), beside.end(), is_chain)) return false;
+        return free_neighbours(board, move) >= 3 ||
+               std::any_of(beside.begin(), beside.end(), [&](int at) {
+                   return board.at(at) == owner_ && board.liberties(at, 4) >= 4;
+               });
     }
 
     static Moves reversed(const Moves& moves) {
@@ -156,9 +176,9 @@ void LadderBoard::play(int at, Colour colour) {
 
 bool dies_in_ladder(const LadderBoard& position, int stone) {
     // The owner may break a ko ban at the start, by a threat elsewhere.
-    LadderBoard start{position.board, 0};
-    Reader reader(start.board, stone);
-    return reader.captured_on_defence(start, 0) && !reader.gave_up();
+    if (position.ko != 0) return dies_in_ladder({position.board, 0}, stone);
+    Reader reader(position.board, stone);
+    return reader.captured_on_defence(position, 0) && !reader.gave_up();
 }
 
 std::vector<int> ladder_captures(const LadderBoard& position, int stone) {
@@ -166,12 +186,12 @@ std::vector<int> ladder_captures(const LadderBoard& position, int stone) {
     if (position.board.liberties(stone, 3) != 2) return working;
     Moves liberties;
     add_liberties(position.board, stone, liberties);
+    const auto attacker = opponent(position.board.at(stone));
     for (const int move : liberties) {
+        if (!Reader::may_play(position, move, attacker)) continue;
         LadderBoard next = position;
-        const Reader reader(next.board, stone);
-        if (reader.play(next, move, opponent(position.board.at(stone))) &&
-            dies_in_ladder(next, stone))
-            working.push_back(move);
+        next.play(move, attacker);
+        if (dies_in_ladder(next, stone)) working.push_back(move);
     }
     return working;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cstdlib>
 #include <utility>
 
@@ -10,7 +11,23 @@ namespace go {
 
 namespace {
 
-using Owners = std::array<Colour, 1024>;  // by the board's indices
+// A set of up to four: the chains beside a point.
+class Heads {
+   public:
+    void add(int head) {
+        if (!holds(head)) heads_[count_++] = head;
+    }
+    void remove(std::size_t i) { heads_[i] = heads_[--count_]; }
+    bool holds(int head) const { return std::find(begin(), end(), head) != end(); }
+    const int* begin() const { return heads_.data(); }
+    const int* end() const { return heads_.data() + count_; }
+    std::size_t size() const { return count_; }
+    int operator[](std::size_t i) const { return heads_[i]; }
+
+   private:
+    std::array<int, 4> heads_{};
+    std::size_t count_ = 0;
+};
 
 // The chains of one colour that can never be captured (D. Benson, "Life in the game of Go",
 // 1976), and the regions around them.
@@ -19,96 +36,111 @@ class PassAlive {
     PassAlive(const Board& board, Colour colour, bool suicide)
         : board_(board), colour_(colour), suicide_(suicide) {
         board_.for_each_point([this](int at) {
-            if (board_.at(at) == colour_)
-                alive_.set(index(board_.head(at)));
-            else if (!seen_[index(at)])
+            if (board_.at(at) == colour_) {
+                if (board_.head(at) == at) chains_.push_back(at);
+            } else if (!seen_[index(at)]) {
                 collect(at);
+            }
         });
-        while (drop_chains() || drop_regions()) {
+        for (const int chain : chains_) alive_.set(index(chain));
+        // Mostly no chain has two eyes, and nothing else needs to be known.
+        drop_chains();
+        if (alive_.none()) return;
+        for (auto& region : regions_) describe(region);
+        while (drop_regions() && drop_chains()) {
         }
     }
 
     // Writes the colour to all points that it owns for certain.
     void claim(Owners& owners) const {
+        if (alive_.none()) return;
         board_.for_each_point([&](int at) {
             if (board_.at(at) == colour_ && alive_[index(board_.head(at))])
                 owners[index(at)] = colour_;
         });
         for (const auto& region : regions_)
             if (region.enclosed && (region.deep <= 1 || !region.enemy))
-                for (const int at : region.points) owners[index(at)] = colour_;
+                for (const int at : points_of(region)) owners[index(at)] = colour_;
     }
 
    private:
     // Connected points without a stone of the colour.
     struct Region {
-        std::vector<int> points;
-        std::vector<int> chains;  // heads of those around it
-        std::vector<int>
-            vital;     // those of them that have a liberty in every point that must be one
-        int deep = 0;  // points beside no stone of the colour
+        std::size_t first = 0, end = 0;  // its part of points_
+        Heads vital;  // chains around it that have a liberty in every point that must be one
+        std::vector<int> chains;  // heads of all around it
+        int deep = 0;             // points beside no stone of the colour
         bool enemy = false;
         bool enclosed = true;  // all chains around it are alive, and there is one
     };
 
     static std::size_t index(int at) { return static_cast<std::size_t>(at); }
+    std::span<const int> points_of(const Region& region) const {
+        return std::span(points_).subspan(region.first, region.end - region.first);
+    }
 
-    std::vector<int> chains_beside(int at) const {
-        std::vector<int> heads;
+    Heads chains_beside(int at) const {
+        Heads heads;
         for (const int beside : board_.neighbours(at))
-            if (board_.at(beside) == colour_) heads.push_back(board_.head(beside));
+            if (board_.at(beside) == colour_) heads.add(board_.head(beside));
         return heads;
     }
 
     void collect(int start) {
         Region region;
-        region.points.push_back(start);
+        region.first = points_.size();
+        points_.push_back(start);
         seen_.set(index(start));
-        for (std::size_t i = 0; i < region.points.size(); ++i)
-            for (const int beside : board_.neighbours(region.points[i])) {
+        for (std::size_t i = region.first; i < points_.size(); ++i)
+            for (const int beside : board_.neighbours(points_[i])) {
                 const auto there = board_.at(beside);
                 if (there == colour_ || there == Colour::edge || seen_[index(beside)]) continue;
                 seen_.set(index(beside));
-                region.points.push_back(beside);
+                points_.push_back(beside);
             }
-        describe(region);
+        region.end = points_.size();
+        find_vital(region);
         regions_.push_back(std::move(region));
     }
 
-    void describe(Region& region) const {
+    // Where suicide is allowed, the enemy's stones may turn into empty points.
+    bool must_be_liberty(int at) const { return suicide_ || board_.at(at) == Colour::empty; }
+
+    void find_vital(Region& region) const {
         bool first = true;
-        for (const int at : region.points) {
+        for (const int at : points_of(region)) {
+            if (!must_be_liberty(at)) continue;
             const auto heads = chains_beside(at);
-            const auto is_beside = [&](int head) {
-                return std::find(heads.begin(), heads.end(), head) != heads.end();
-            };
-            region.deep += heads.empty();
+            if (std::exchange(first, false)) {
+                region.vital = heads;
+            } else {
+                for (std::size_t i = region.vital.size(); i-- > 0;)
+                    if (!heads.holds(region.vital[i])) region.vital.remove(i);
+            }
+            if (region.vital.size() == 0) return;
+        }
+    }
+
+    void describe(Region& region) const {
+        for (const int at : points_of(region)) {
+            const auto heads = chains_beside(at);
+            region.deep += heads.size() == 0;
             region.enemy = region.enemy || board_.at(at) != Colour::empty;
             region.chains.insert(region.chains.end(), heads.begin(), heads.end());
-            // Where suicide is allowed, the enemy's stones may turn into empty points.
-            if (!suicide_ && board_.at(at) != Colour::empty) continue;
-            if (std::exchange(first, false))
-                region.vital = heads;
-            else
-                std::erase_if(region.vital, [&](int head) { return !is_beside(head); });
-        }
-        for (auto* heads : {&region.chains, &region.vital}) {
-            std::sort(heads->begin(), heads->end());
-            heads->erase(std::unique(heads->begin(), heads->end()), heads->end());
         }
         region.enclosed = !region.chains.empty();
     }
 
     // A chain needs two enclosed regions that are vital to it.
     bool drop_chains() {
-        std::array<int, 1024> eyes{};
+        std::array<std::uint16_t, 1024> eyes{};
         for (const auto& region : regions_)
             if (region.enclosed)
                 for (const int head : region.vital) ++eyes[index(head)];
         bool changed = false;
-        for (std::size_t head = 0; head < eyes.size(); ++head)
-            if (alive_[head] && eyes[head] < 2) {
-                alive_.reset(head);
+        for (const int head : chains_)
+            if (alive_[index(head)] && eyes[index(head)] < 2) {
+                alive_.reset(index(head));
                 changed = true;
             }
         return changed;
@@ -130,6 +162,7 @@ class PassAlive {
     Colour colour_;
     bool suicide_;
     std::bitset<1024> alive_, seen_;
+    std::vector<int> chains_, points_;
     std::vector<Region> regions_;
 };
 
@@ -167,26 +200,6 @@ Colour region_owner(const Board& board, const std::vector<int>& region) {
         }
     if (black == white) return Colour::empty;
     return black ? Colour::black : Colour::white;
-}
-
-// Who owns each point of the board as it stands.
-Owners all_owners(const Go& game) {
-    const auto& board = game.board();
-    Owners owners = pass_alive_owners(game);
-    std::bitset<1024> seen;
-    board.for_each_point([&](int at) {
-        if (board.at(at) != Colour::empty) {
-            if (owner(owners, at) == Colour::empty) owner(owners, at) = board.at(at);
-            return;
-        }
-        if (seen[static_cast<std::size_t>(at)]) return;
-        const auto region =
-            flood(board, at, seen, [&](int point) { return board.at(point) == Colour::empty; });
-        const auto colour = region_owner(board, region);
-        for (const int point : region)
-            if (owner(owners, point) == Colour::empty) owner(owners, point) = colour;
-    });
-    return owners;
 }
 
 // Connected points of one owner.
@@ -261,6 +274,25 @@ std::vector<std::optional<Player>> in_order(const Board& board, const Owners& ow
 
 }  // namespace
 
+Owners area_owners(const Go& game) {
+    const auto& board = game.board();
+    Owners owners = pass_alive_owners(game);
+    std::bitset<1024> seen;
+    board.for_each_point([&](int at) {
+        if (board.at(at) != Colour::empty) {
+            if (owner(owners, at) == Colour::empty) owner(owners, at) = board.at(at);
+            return;
+        }
+        if (seen[static_cast<std::size_t>(at)]) return;
+        const auto region =
+            flood(board, at, seen, [&](int point) { return board.at(point) == Colour::empty; });
+        const auto colour = region_owner(board, region);
+        for (const int point : region)
+            if (owner(owners, point) == Colour::empty) owner(owners, point) = colour;
+    });
+    return owners;
+}
+
 std::vector<std::optional<Player>> pass_alive(const Go& game) {
     return in_order(game.board(), pass_alive_owners(game));
 }
@@ -268,7 +300,7 @@ std::vector<std::optional<Player>> pass_alive(const Go& game) {
 Score score(const Go& game, std::span<const Point> dead) {
     Go cleared = game;
     for (const Point point : dead) cleared.take_dead(point);
-    const auto owners = all_owners(cleared);
+    const auto owners = area_owners(cleared);
     Score result;
     result.owners = in_order(cleared.board(), owners);
     result.lead_halves =

@@ -1,6 +1,7 @@
 // Who owns what at the end of a game of Go, and the result. SPEC's "Scoring in Go".
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,10 @@ namespace go {
 // Chains that cannot be captured even if their owner always passes (Benson 1976), with the
 // regions they own: per point (y * size + x) the colour, else empty.
 std::vector<std::optional<Player>> pass_alive(const Go& game);
+
+// Who owns each point of the board as it stands, by the board's indices.
+using Owners = std::array<Colour, 1024>;
+Owners area_owners(const Go& game);
 
 struct Score {
     std::vector<std::optional<Player>> owners;  // per point (y * size + x); nobody's is empty
