@@ -29,6 +29,18 @@ bool served(const Graph& graph, Precision precision, int board) {
 
 }  // namespace
 
+std::string_view why_not(const Graph& graph, Precision precision, int board) {
+    constexpr std::string_view slow_processor = "the processor has no instructions for it";
+    if (served(graph, precision, board)) return {};
+    if (precision == Precision::int16)
+        return winograd::available() ? "the network is none that it serves" : slow_processor;
+#if defined(SANBAN_ONEDNN)
+    return slow_processor;
+#else
+    return "this build is without oneDNN";
+#endif
+}
+
 Precision served_precision(const Graph& graph, Precision wanted, int board) {
     while (!served(graph, wanted, board))
         wanted = static_cast<Precision>(static_cast<int>(wanted) - 1);

@@ -4,6 +4,9 @@
 // plays against itself, and remembered in the user's cache folder.
 #pragma once
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -113,6 +116,19 @@ nn::Precision settle(const std::shared_ptr<const Network>& exact, PrecisionChoic
     return *choice;
 }
 
+// Says which precisions that were asked for, or might have been faster, there are not.
+inline void tell_lacking(const Network& network, PrecisionChoice choice, int board) {
+    std::string lacking;
+    for (const auto precision : {nn::Precision::bf16, nn::Precision::int8, nn::Precision::int16}) {
+        const auto why = nn::why_not(network.graph(), precision, board);
+        if (why.empty() || (choice && precision != *choice)) continue;
+        lacking += fmt::format("; no {}: {}", nn::name_of(precision), why);
+    }
+    if (lacking.empty()) return;
+    const auto served = nn::served_precision(network.graph(), network.precision(), board);
+    spdlog::warn("{} runs in {}{}", network.graph().facts.name, nn::name_of(served), lacking);
+}
+
 inline nn::Contents contents_of(const std::string& name, std::string_view game) {
     if (name == embedded_name) {
         const auto bytes = embedded_weights(game);
@@ -151,7 +167,10 @@ std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
     auto known = recall(contents.key, exact->graph());
     if (!contents.calibration.maxima.empty()) known.calibration = contents.calibration;
     const auto precision = loading::settle(exact, choice, game, contents.key, known);
-    return std::make_shared<const NetworkSource<G>>(exact->in(precision, known.calibration), exact);
+    const auto network = exact->in(precision, known.calibration);
+    const auto& encoding = engine::find_encoding<G>(network->graph().facts.encoding);
+    loading::tell_lacking(*network, choice, encoding.shape(game).height);
+    return std::make_shared<const NetworkSource<G>>(network, exact);
 }
 
 }  // namespace search

@@ -60,11 +60,21 @@ TEST(Backend, KeepsToTheLimitOfTheEnvironment) {
     }
 }
 
+TEST(Backend, SaysWhyAPrecisionIsNotServed) {
+    const auto graph = tower(Attention::none);
+    for (const auto precision :
+         {Precision::fp32, Precision::bf16, Precision::int8, Precision::int16}) {
+        const bool served = served_precision(graph, precision, board) == precision;
+        EXPECT_EQ(why_not(graph, precision, board).empty(), served) << name_of(precision);
+    }
+}
+
 TEST(Backend, FallsBackByTheGraph) {
     // A layer by layer network has no 3x3 convolutions for int16.
     engine::Random random(3);
     const auto graph = build_mlp({}, {4, 8, 2}, random);
     EXPECT_NE(served_precision(graph, Precision::int16, board), Precision::int16);
+    EXPECT_FALSE(why_not(graph, Precision::int16, board).empty());
 }
 
 }  // namespace
