@@ -102,6 +102,7 @@ void transform_chunk(const Transform& t, std::ptrdiff_t row, std::ptrdiff_t fact
     if (t.residual != nullptr)
         for (int i = 0; i < n; ++i) v[i] += t.residual[row + c + i];
     activate_all(t.activation, v, n);
+    if (t.exact != nullptr) store(v, t.exact, Format::f32, row + c, n);
     if (t.post != nullptr)
         for (int i = 0; i < n; ++i) v[i] *= t.post[c + i];
     store(v, t.out, t.format, row + c, n);
@@ -173,6 +174,7 @@ void transform_vectors(Transform t) {
                 Floats v = load(t.in + row + c) * scale.at(factor) + shift.at(factor) +
                            residual.at(row + c);
                 if constexpr (positive) v = v > none ? v : none;
+                if (t.exact != nullptr) put(v, t.exact, row + c);
                 put_as<format>(v * post.at(c), t.out, row + c);
             }
 }

@@ -14,6 +14,7 @@ constexpr std::size_t formats = 4;
 
 // out = activation(in * scale + shift + residual) * post, for every point of every position.
 // Null: no such factor or term. `step` is the distance of the scales and shifts of two positions.
+// `exact`, where there is one, gets the same in f32 and without `post`.
 struct Transform {
     const float* in = nullptr;
     const float* residual = nullptr;
@@ -24,6 +25,7 @@ struct Transform {
     Activation activation = Activation::identity;
     void* out = nullptr;
     Format format = Format::f32;
+    float* exact = nullptr;
     int positions = 0, points = 0, channels = 0;
 };
 

@@ -83,9 +83,8 @@ void Stage::add_input(std::size_t n, std::size_t index) {
 void Stage::add_transform(std::size_t n) {
     const auto wanted = std::count(layout_->wanted[n].begin(), layout_->wanted[n].end(), true);
     auto format = Format::f32;
-    if (wanted == 1)
-        for (const auto only : all_formats)
-            if (wants(n, only)) format = only;
+    for (const auto other : all_formats)
+        if (wants(n, other)) format = other;
     auto transform = shaped(n);
     transform.in = input_f32(n, 0);
     transform.activation = node(n).activation;
@@ -93,8 +92,9 @@ void Stage::add_transform(std::size_t n) {
     if (format >= Format::u8) transform.post = layout_->inverse_steps[n].data();
     transform_terms(n, transform);
     transform.out = make(n, format);
+    if (format != Format::f32 && wanted > 1) transform.exact = make_f32(n);
     step(transform);
-    convert_rest(n, format);
+    convert_rest(n);
 }
 
 void Stage::transform_terms(std::size_t n, Transform& t) {
@@ -136,17 +136,13 @@ const float* Stage::bias_rows(std::size_t n) {
 }
 
 void Stage::squeeze_terms(std::size_t n, Transform& t) {
-    // Scales and shifts side by side; the scales become sigmoids in a copy.
-    const auto excitation = source(n, 1);
-    auto copy = shaped(excitation);
-    copy.in = input_f32(n, 1);
+    // Scales and shifts side by side; the scales become sigmoids elsewhere.
+    const auto* const excitation = input_f32(n, 1);
     auto* const factors = reinterpret_cast<float*>(buffers_.take(
-        layout_->size(static_cast<int>(excitation)) * 4 * static_cast<std::size_t>(positions_)));
-    copy.out = factors;
-    step(copy);
+        layout_->size(static_cast<int>(source(n, 1))) * 4 * static_cast<std::size_t>(positions_)));
     for (int i = 0; i < positions_; ++i) {
         Transform sigmoid;
-        sigmoid.in = factors + std::ptrdiff_t{2} * i * t.channels;
+        sigmoid.in = excitation + std::ptrdiff_t{2} * i * t.channels;
         sigmoid.out = factors + std::ptrdiff_t{2} * i * t.channels;
         sigmoid.activation = Activation::sigmoid;
         sigmoid.positions = sigmoid.points = 1;
@@ -154,7 +150,7 @@ void Stage::squeeze_terms(std::size_t n, Transform& t) {
         step(sigmoid);
     }
     t.scale = factors;
-    t.shift = factors + t.channels;
+    t.shift = excitation + t.channels;
     t.step = std::ptrdiff_t{2} * t.channels;
     if (node(n).inputs.size() > 2) t.residual = input_f32(n, 2);
 }
@@ -217,7 +213,7 @@ void Stage::add_layer(std::size_t n) {
         activation.activation = node(n).activation;
         step(activation);
     }
-    convert_rest(n, format);
+    convert_rest(n);
 }
 
 void Stage::add_small(std::size_t n) {
@@ -233,7 +229,7 @@ void Stage::add_small(std::size_t n) {
     small.outs = layer.weights[0].shape[0];
     small.out = make_f32(n);
     steps_.emplace_back([small](const Ends&) { kernels().small(small); });
-    convert_rest(n, Format::f32);
+    convert_rest(n);
 }
 
 void Stage::add_pool(std::size_t n) {
@@ -246,7 +242,7 @@ void Stage::add_pool(std::size_t n) {
                     shape.channels,
                     static_cast<float>(layout_->board)};
     steps_.emplace_back([pool](const Ends&) { kernels().pool(pool); });
-    convert_rest(n, Format::f32);
+    convert_rest(n);
 }
 
 void Stage::add_flatten(std::size_t n) {
@@ -258,7 +254,7 @@ void Stage::add_flatten(std::size_t n) {
                     layout_->points,
                     layout_->shapes[source(n, 0)].channels};
     steps_.emplace_back([turn](const Ends&) { kernels().to_planes(turn); });
-    convert_rest(n, Format::f32);
+    convert_rest(n);
 }
 
 void Stage::add_concatenate(std::size_t n) {
@@ -273,7 +269,7 @@ void Stage::add_concatenate(std::size_t n) {
         });
         out += size;
     }
-    convert_rest(n, Format::f32);
+    convert_rest(n);
 }
 
 void Stage::add_gather(std::size_t n) {
@@ -287,7 +283,7 @@ void Stage::add_gather(std::size_t n) {
             for (const int index : *table)
                 *next++ = in[p * width + static_cast<std::size_t>(index)];
     });
-    convert_rest(n, Format::f32);
+    convert_rest(n);
 }
 
 void Stage::add_output(std::size_t index) {
@@ -306,12 +302,13 @@ void Stage::add_output(std::size_t index) {
     });
 }
 
-void Stage::convert_rest(std::size_t n, Format from) {
+void Stage::convert_rest(std::size_t n) {
+    const auto& data = values_[n].data;
     for (const auto format : all_formats) {
-        if (!wants(n, format) || format == from) continue;
-        assert(from == Format::f32);
+        if (!wants(n, format) || data[at(format)] != nullptr) continue;
+        assert(data[at(Format::f32)] != nullptr);
         auto convert = shaped(n);
-        convert.in = reinterpret_cast<const float*>(values_[n].data[at(from)]);
+        convert.in = reinterpret_cast<const float*>(data[at(Format::f32)]);
         convert.out = make(n, format);
         convert.format = format;
         if (format >= Format::u8) convert.post = layout_->inverse_steps[n].data();

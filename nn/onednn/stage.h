@@ -50,7 +50,7 @@ class Stage {
     const float* bias_rows(std::size_t n);
     Format layer_format(std::size_t n) const;
     std::byte* sum_buffer(std::size_t n);
-    void convert_rest(std::size_t n, Format from);
+    void convert_rest(std::size_t n);
     void release_inputs(std::size_t n);
 
     void step(const Transform& transform);
