@@ -46,8 +46,8 @@ void advance(Evaluator<G>& evaluator, std::vector<Line<G>>& lines, engine::Rando
 
 }  // namespace sampling
 
-// Where to begin: in games with boards of several sizes a new game on each that a network for
-// `board` (0: any) serves, the given game's among them.
+// Where to begin: in games with boards of several sizes a new game on a small and on a large one
+// that a network for `board` (0: any) serves, and on the given game's.
 template <engine::Game G>
 std::vector<G> sample_starts([[maybe_unused]] int board, [[maybe_unused]] const G& game) {
     if constexpr (requires {
@@ -55,9 +55,8 @@ std::vector<G> sample_starts([[maybe_unused]] int board, [[maybe_unused]] const 
                       G(9);
                   }) {
         if (board != 0) return {G(board)};
-        std::vector<G> starts{G(9), G(13), G(19)};
-        if (const int own = game.size(); own != 9 && own != 13 && own != 19)
-            starts.push_back(G(own));
+        std::vector<G> starts{G(9), G(19)};
+        if (const int own = game.size(); own != 9 && own != 19) starts.push_back(G(own));
         return starts;
     } else {
         return {G()};
