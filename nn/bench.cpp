@@ -51,6 +51,8 @@ Positions sparse_positions(const Graph& graph, int board, int size) {
 
 struct Rates {
     std::vector<double> evals, peak, bare;  // a second, per repeat
+    std::vector<double> bf16_peak;          // of an int8 network
+    double int8_operations = 0;
 };
 
 // One thread with an executor of its own.
@@ -100,11 +102,17 @@ Rates measure(const Case& c) {
 #endif
     worker.run();
     Rates rates;
+#if defined(SANBAN_ONEDNN)
+    if (c.served == Precision::int8) rates.int8_operations = bare->int8_operations();
+#endif
     for (int i = 0; i < repeats; ++i) {
         rates.evals.push_back(rate(share, [&] { return worker.run(); }));
         rates.peak.push_back(rate(share, [&] { return run_multiply_adds(c.served, 100000); }));
 #if defined(SANBAN_ONEDNN)
         if (bare) rates.bare.push_back(rate(share, [&] { return bare->run(); }));
+        if (c.served == Precision::int8)
+            rates.bf16_peak.push_back(
+                rate(share, [&] { return run_multiply_adds(Precision::bf16, 100000); }));
 #endif
     }
     return rates;
@@ -125,17 +133,22 @@ std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSetting
     for (auto& own : rates) threads.emplace_back([&] { own = measure(current); });
     for (auto& thread : threads) thread.join();
 
-    double evals = 0, peak = 0, bare = 0;
+    double evals = 0, peak = 0, bare = 0, bf16_peak = 0;
     for (const auto& own : rates) {
         evals += median(own.evals);
         peak += median(own.peak);
         bare += median(own.bare);
+        bf16_peak += median(own.bf16_peak);
     }
     const double flops = evals * static_cast<double>(flop_count(graph, settings.board));
+    const double int8_flops = evals * rates[0].int8_operations;
     std::vector<engine::Figure> figures = {{prefix + "evals", evals, "evals/s"},
                                            {prefix + "gflops", flops * 1e-9, "GFLOP/s"}};
     if (peak > 0) figures.push_back({prefix + "peak_share", 100 * flops / peak, "%"});
     if (bare > 0) figures.push_back({prefix + "ceiling_share", 100 * evals / bare, "%"});
+    if (bf16_peak > 0)
+        figures.push_back({prefix + "mixed_share",
+                           100 * (int8_flops / peak + (flops - int8_flops) / bf16_peak), "%"});
     return figures;
 }
 

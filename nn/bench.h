@@ -21,8 +21,9 @@ struct BenchSettings {
 };
 
 // evals (of all threads), gflops, peak_share and, where oneDNN computes, ceiling_share (of bare
-// convolutions of the same shapes), over these positions, one batch. Names begin with `prefix`. A
-// precision that is lacking here gives way as compile says.
+// convolutions of the same shapes), over these positions, one batch; in int8 also mixed_share: of
+// the peak where what runs in bf16 there (first layer and heads) counts by the peak of bf16. Names
+// begin with `prefix`. A precision that is lacking here gives way as compile says.
 std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSettings& settings,
                                           const Positions& positions,
                                           const Calibration& calibration,

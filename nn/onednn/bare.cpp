@@ -23,6 +23,9 @@ double BareConvolutions::run() const {
 void BareConvolutions::add(std::size_t node) {
     auto bare = layout_.graph.nodes[node];
     bare.activation = Activation::identity;
+    if (layout_.reads[node] >= Format::u8)
+        int8_operations_ +=
+            2.0 * static_cast<double>(bare.weights[0].values.size()) * layout_.points;
     const int source = bare.inputs[0];
     const auto buffer = [&](int of) {
         buffers_.push_back(

@@ -16,12 +16,15 @@ class BareConvolutions {
                      const Positions& positions);
     // Yields for how many positions it ran.
     double run() const;
+    // Of the operations that a position takes, those in int8.
+    double int8_operations() const { return int8_operations_; }
 
    private:
     void add(std::size_t node);
 
     Layout layout_;
     int positions_;
+    double int8_operations_ = 0;
     dnnl::stream stream_;
     PackedWeights packed_;
     std::vector<Bytes> buffers_;

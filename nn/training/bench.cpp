@@ -1,10 +1,14 @@
 #include "nn/training/bench.h"
 
+#include <time.h>
+
 #include <algorithm>
+#include <string>
 #include <thread>
 
 #include "engine/base/measure.h"
 #include "nn/builders.h"
+#include "nn/peak.h"
 #include "nn/training/learner.h"
 
 namespace nn::training {
@@ -64,25 +68,60 @@ struct Positions {
     }
 };
 
-double samples_per_second(const TowerDescription& about, Precision precision, double seconds) {
+// Of all threads together.
+double process_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Speed {
+    double samples = 0;     // a second on the wall
+    double peak_share = 0;  // of multiply-adds, by processor time; 0 where there is no peak
+};
+
+// A sample takes its network's operations three times: forward, and backward for what flows and for
+// the weights.
+double operations(const Graph& graph, int board) {
+    return 3 * static_cast<double>(flop_count(graph, board));
+}
+
+Speed speed_of(const TowerDescription& about, Precision precision, double seconds) {
     engine::Random random(1);
     const Positions positions(about);
     const auto samples = positions.samples(about.facts.board);
     LearnerSettings settings;
     settings.precision = precision;
     settings.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    Learner learner(build_tower(about, random), settings);
+    const auto graph = build_tower(about, random);
+    Learner learner(graph, settings);
     learner.step(samples);  // makes what the batch size needs
-    return batch * engine::calls_per_second(
-                       seconds, [&] { learner.step(samples); }, 1, engine::wall_seconds);
+    const double peak = engine::calls_per_second(
+        seconds / 4, [&] { run_multiply_adds(precision, 100000); }, 1);
+    const double peak_operations = peak * run_multiply_adds(precision, 100000);
+    double used = process_seconds();
+    int steps = 0;
+    const double rate = batch * engine::calls_per_second(
+                                    seconds,
+                                    [&] {
+                                        learner.step(samples);
+                                        ++steps;
+                                    },
+                                    1, engine::wall_seconds);
+    used = process_seconds() - used;
+    const double done = operations(graph, about.facts.board) * batch * steps;
+    return {rate, peak_operations > 0 ? 100 * done / used / peak_operations : 0};
 }
 
 }  // namespace
 
 std::vector<engine::Figure> bench_learner(double seconds) {
     std::vector<engine::Figure> figures;
-    const auto measure = [&](const char* name, const TowerDescription& about, Precision precision) {
-        figures.push_back({name, samples_per_second(about, precision, seconds), "samples/s"});
+    const auto measure = [&](const std::string& name, const TowerDescription& about,
+                             Precision precision) {
+        const auto speed = speed_of(about, precision, seconds);
+        figures.push_back({name, speed.samples, "samples/s"});
+        if (speed.peak_share > 0) figures.push_back({name + "_peak_share", speed.peak_share, "%"});
     };
     measure("learner_samples", go_tower(), Precision::bf16);
     measure("learner_samples_fp32", go_tower(), Precision::fp32);
