@@ -23,6 +23,12 @@ float first_play_urgency(const search::Analysis& picture, const search::SearchPa
     return picture.value - params.root_fpu_reduction * std::sqrt(visited);
 }
 
+// `value` less what draws count for, how likely a draw is, and the moves left (0: no word on them).
+std::string expectations(float value, float draws, float draw_score, float plies_left) {
+    return fmt::format("(WL: {:>8.5f}) (D: {:>5.3f}) (M: {:>4.1f}) ", value - draws * draw_score,
+                       draws, plies_left);
+}
+
 std::string move_line(const Session& session, const search::Analysis& picture,
                       const search::MoveAnalysis& move) {
     const auto params = session.params();
@@ -35,7 +41,7 @@ std::string move_line(const Session& session, const search::Analysis& picture,
     const float q = visited ? move.value : first_play_urgency(picture, params);
     auto line = head(session.move_to_text(move.move), session.policy_index(move.move), move.visits,
                      move.prior);
-    line += visited ? fmt::format("(WL: {:>8.5f}) (D: -.---) (M:  -.-) ", move.value)
+    line += visited ? expectations(move.value, move.draws, picture.draw_score, 0)
                     : "(WL:  -.-----) (D: -.---) (M:  -.-) ";
     return line +
            fmt::format("(Q: {:>8.5f}) (U: {:>6.5f}) (S: {:>8.5f}) (V:  -.----)", q, u, q + u);
@@ -52,8 +58,8 @@ std::vector<std::string> verbose_stats(const Session& session, const search::Ana
         if (move.visits > 0) visited += move.prior;
     lines.push_back(
         head("node", static_cast<int>(picture.moves.size()), picture.visits, visited) +
-        fmt::format("(WL: {:>8.5f}) (D: -.---) (M:  -.-) (Q: {:>8.5f}) (V: {})", picture.value,
-                    picture.value,
+        expectations(picture.value, picture.draws, picture.draw_score, picture.plies_left) +
+        fmt::format("(Q: {:>8.5f}) (V: {})", picture.value,
                     picture.visits == 1 ? fmt::format("{:>7.4f}", picture.value) : " -.----"));
     return lines;
 }

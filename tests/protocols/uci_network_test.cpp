@@ -93,6 +93,16 @@ TEST(UciNetwork, MaiaSaysWhatItSaysInLc0) {
     EXPECT_GT(number, 0);
 }
 
+TEST(UciNetwork, VerboseStatsTellDraws) {
+    const auto path = oracle::network("maia-1900.pb.gz");
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "the shared data is not there";
+    Guest guest;
+    guest.say("setoption name Precision value fp32\nsetoption name WeightsFile value " +
+              path.string() + "\nsetoption name VerboseMoveStats value true\nisready\n");
+    const auto text = guest.say("position startpos\ngo nodes 1\n");
+    EXPECT_NE(text.find("(WL:  0.03373) (D: 0.055) (M:  0.0) "), text.npos) << text;
+}
+
 TEST(UciNetwork, ThePrecisionIsAnOptionOfItsOwn) {
     Guest guest;
     const auto text = guest.say("uci\nsetoption name Precision value half\n");
