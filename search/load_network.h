@@ -36,7 +36,7 @@ struct Samples {
 
 // How much computing a calibration may take: `work` floating-point operations for a board size.
 struct Budget {
-    double work = 5e10;
+    double work = 0;
     int lines = 8;
     int least_plies = 12, most_plies = 160;
     std::size_t most_positions = 64;  // of a board size, to calibrate on; half of it to compare
@@ -57,9 +57,10 @@ Samples<G> sample(const std::shared_ptr<const Network>& network, const G& game) 
     const auto& encoding = engine::find_encoding<G>(graph.facts.encoding);
     NetworkEvaluator<G> evaluator(network->in(nn::Precision::bf16));
     engine::Random random(1);
-    const Budget budget;
+    const auto starts = sample_starts(graph.facts.board, game);
+    const Budget budget{1e11 / static_cast<double>(std::max<std::size_t>(starts.size(), 2))};
     Samples<G> samples;
-    for (const G& start : sample_starts(graph.facts.board, game)) {
+    for (const G& start : starts) {
         const auto flops = static_cast<double>(nn::flop_count(graph, encoding.shape(start).height));
         const auto lines =
             sample_lines(evaluator, start, budget.lines, budget.plies(flops), random);
