@@ -41,6 +41,23 @@ void add_saving_captures(const Board& board, int stone, Moves& moves) {
     });
 }
 
+int free_neighbours(const Board& board, int at) {
+    int count = 0;
+    for (const int beside : board.neighbours(at)) count += board.at(beside) == Colour::empty;
+    return count;
+}
+
+// Seen without playing it: a chain of `owner` whose last liberty is `move` gets three or more by
+// it. `filled`: how many of the liberties that the board shows there the other side will have
+// taken.
+bool surely_escapes(const Board& board, int move, Colour owner, int filled) {
+    const auto beside = board.neighbours(move);
+    return free_neighbours(board, move) >= 3 + filled ||
+           std::any_of(beside.begin(), beside.end(), [&](int at) {
+               return board.at(at) == owner && board.liberties(at, 4 + filled) >= 4 + filled;
+           });
+}
+
 class Reader {
    public:
     explicit Reader(const Board& board, int stone)
@@ -59,7 +76,8 @@ class Reader {
         add_liberties(board, stone_, moves);
         for (const int move : moves) {
             if (!may_play(position, move, owner_)) continue;
-            if (depth + 1 < most_depth_ && surely_escapes(board, move)) {
+            if (depth + 1 < most_depth_ && extends(board, move) &&
+                surely_escapes(board, move, owner_, 0)) {
                 count_node();
                 return false;
             }
@@ -107,17 +125,12 @@ class Reader {
         if (++nodes_ > most_nodes) gave_up_ = true;
     }
 
-    // Seen without playing it: the owner's move on the only liberty yields three or more.
-    bool surely_escapes(const Board& board, int move) const {
+    // Is the move one beside the chain?
+    bool extends(const Board& board, int move) const {
         const auto beside = board.neighbours(move);
-        const auto is_chain = [&](int at) {
+        return std::any_of(beside.begin(), beside.end(), [&](int at) {
             return board.at(at) == owner_ && board.head(at) == board.head(stone_);
-        };
-        if (std::none_of(beside.begin(), beside.end(), is_chain)) return false;
-        return free_neighbours(board, move) >= 3 ||
-               std::any_of(beside.begin(), beside.end(), [&](int at) {
-                   return board.at(at) == owner_ && board.liberties(at, 4) >= 4;
-               });
+        });
     }
 
     static Moves reversed(const Moves& moves) {
@@ -126,19 +139,16 @@ class Reader {
         return result;
     }
 
-    static int free_neighbours(const Board& board, int at) {
-        int count = 0;
-        for (const int beside : board.neighbours(at)) count += board.at(beside) == Colour::empty;
-        return count;
-    }
-
     // Both liberties are mouths of kos that the owner cannot connect out of.
     bool dies_between_kos(const Board& board, const Moves& liberties) const {
+        const auto is_mouth = [&](int at) {
+            return free_neighbours(board, at) == 0 && is_ko_mouth(board, at);
+        };
+        if (!std::all_of(liberties.begin(), liberties.end(), is_mouth)) return false;
         Moves captures;
         add_saving_captures(board, stone_, captures);
         if (captures.size() > 0) return false;
         return std::all_of(liberties.begin(), liberties.end(), [&](int at) {
-            if (free_neighbours(board, at) > 0 || !is_ko_mouth(board, at)) return false;
             Board next = board;
             next.play(at, owner_);
             return next.liberties(at, 3) <= 2;
@@ -177,7 +187,13 @@ void LadderBoard::play(int at, Colour colour) {
 bool dies_in_ladder(const LadderBoard& position, int stone) {
     // The owner may break a ko ban at the start, by a threat elsewhere.
     if (position.ko != 0) return dies_in_ladder({position.board, 0}, stone);
-    Reader reader(position.board, stone);
+    const auto& board = position.board;
+    Moves liberties;
+    add_liberties(board, stone, liberties);
+    // Whatever else was read, this would refute it.
+    if (liberties.size() != 1 || surely_escapes(board, liberties[0], board.at(stone), 0))
+        return false;
+    Reader reader(board, stone);
     return reader.captured_on_defence(position, 0) && !reader.gave_up();
 }
 
@@ -186,9 +202,13 @@ std::vector<int> ladder_captures(const LadderBoard& position, int stone) {
     if (position.board.liberties(stone, 3) != 2) return working;
     Moves liberties;
     add_liberties(position.board, stone, liberties);
-    const auto attacker = opponent(position.board.at(stone));
+    const auto owner = position.board.at(stone), attacker = opponent(owner);
     for (const int move : liberties) {
         if (!Reader::may_play(position, move, attacker)) continue;
+        const int last = liberties[move == liberties[0] ? 1 : 0];
+        if (!position.board.captures(move, attacker) &&
+            surely_escapes(position.board, last, owner, 1))
+            continue;
         LadderBoard next = position;
         next.play(move, attacker);
         if (dies_in_ladder(next, stone)) working.push_back(move);
