@@ -13,7 +13,7 @@ namespace {
 
 using engine::fail;
 
-constexpr int most_channels = 1 << 16, most_board = 32, most_nodes = 20000;
+constexpr int most_channels = 1 << 17, most_board = 32, most_nodes = 20000;
 constexpr std::int64_t most_numbers = std::int64_t{1} << 29;
 
 constexpr std::array<std::string_view, 14> operation_names = {

@@ -47,7 +47,7 @@ void choose_weights(NetworkFlags& flags, const search::SearchParams& params,
 
 void check_method(const search::SearchParams& params, const NetworkFlags& flags) {
     const bool needs_network =
-        params.method == search::Method::puct || params.method == search::Method::gumbel;
+        params.method != search::Method::automatic && params.method != search::Method::uct;
     if (needs_network && flags.weights.empty())
         engine::fail("--search {} needs a network: --weights FILE",
                      search::method_names[static_cast<std::size_t>(params.method)]);

@@ -20,7 +20,7 @@
 #include "engine/base/error.h"
 #include "engine/base/option.h"
 #include "engine/game.h"
-#include "search/load_network.h"
+#include "search/load_player.h"
 #include "search/mate.h"
 #include "search/searcher.h"
 
@@ -192,7 +192,7 @@ class GameSession final : public Session {
     void load_network(const std::string& file, search::PrecisionChoice precision) override {
         if constexpr (engine::Encoded<G>) {
             if (file == search::embedded_name) return load_embedded(now(), precision);
-            auto source = file.empty() ? nullptr : search::load_network(file, precision, now());
+            auto source = file.empty() ? nullptr : search::load_player(file, precision, now());
             set_network(now(), std::move(source));
             embedded_.reset();
         } else {

@@ -32,7 +32,9 @@ Candidate candidate(const Tree& tree, const Edge& edge) {
     if (id == no_node) return {&edge, id, 0, 0, Ending::unknown, 0};
     const Node& node = tree[id];
     const auto ending = seen_before(node.ending.load(std::memory_order_relaxed));
-    const float value = ending == Ending::win ? 1.0f : ending == Ending::loss ? -1.0f : node.mean();
+    const float value = ending == Ending::win    ? 1.0f
+                        : ending == Ending::loss ? -1.0f
+                                                 : tree.value(node);
     return {&edge, id, visits_of(tree, id), value, ending, node.plies + 1};
 }
 

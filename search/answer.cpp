@@ -24,14 +24,16 @@ void add_weighted(const std::vector<float>& part, float weight, std::vector<floa
 }  // namespace
 
 OutputMap::OutputMap(const nn::Graph& graph)
-    : wdl(find_output(graph, "wdl")),
+    : policy(find_output(graph, "policy")),
+      wdl(find_output(graph, "wdl")),
       value(find_output(graph, "value")),
       ownership(find_output(graph, "ownership")) {
-    const auto found = find_output(graph, "policy");
-    if (!found) engine::fail("the network \"{}\" has no policy", graph.facts.name);
-    if (!wdl && !value) engine::fail("the network \"{}\" has no value", graph.facts.name);
-    policy = *found;
     for (std::size_t i = 0; i < figure_count; ++i) figures[i] = find_output(graph, figure_names[i]);
+}
+
+void OutputMap::check(std::string_view name) const {
+    if (!policy) engine::fail("the network \"{}\" has no policy", name);
+    if (!wdl && !value) engine::fail("the network \"{}\" has no value", name);
 }
 
 std::size_t turned_point(std::size_t point, std::size_t size, int symmetry) {

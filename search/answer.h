@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "nn/graph.h"
@@ -12,13 +13,13 @@
 
 namespace search {
 
-// Where a graph's outputs have what search reads. Fails with engine::Error when there is no policy
-// or no value.
+// Where a graph's outputs have what search reads.
 struct OutputMap {
     explicit OutputMap(const nn::Graph& graph);
+    // Fails with engine::Error, naming the network, when there is no policy or no value.
+    void check(std::string_view name) const;
 
-    std::size_t policy = 0;
-    std::optional<std::size_t> wdl, value, ownership;
+    std::optional<std::size_t> policy, wdl, value, ownership;
     std::array<std::optional<std::size_t>, figure_count> figures;
 };
 

@@ -11,8 +11,13 @@
 #include <vector>
 
 #include "engine/game.h"
+#include "search/rollout_player.h"
 
 namespace search {
+
+// AlphaGo's policies: the supervised one, or the one that reinforcement made of it.
+enum class Prior : std::uint8_t { supervised, reinforced };
+inline constexpr std::array<std::string_view, 2> prior_names = {"supervised", "reinforced"};
 
 // Numbers that some networks tell beside the value, all as the mover sees them; 0 where they do
 // not. What each means stands with nn::Graph.
@@ -80,6 +85,14 @@ class EvaluatorSource {
     virtual std::unique_ptr<Evaluator<G>> make_evaluator() const = 0;
     // One that answers to the last digit, however coarse the search's own.
     virtual std::unique_ptr<Evaluator<G>> make_exact_evaluator() const { return make_evaluator(); }
+    // Of a set with more than one policy network, by whose priors.
+    virtual std::unique_ptr<Evaluator<G>> make_evaluator_of(Prior) const {
+        return make_evaluator();
+    }
+    // Rollouts by the set's own policy; by the game's where it has none.
+    virtual std::unique_ptr<RolloutPlayer<G>> make_rollouts() const {
+        return std::make_unique<RolloutPlayerBy<G, typename engine::RolloutsOf<G>::type>>();
+    }
     virtual std::string_view name() const = 0;
     // Fails, naming both, when the network does not serve the board of this game.
     virtual void check(const G& game) const = 0;

@@ -70,6 +70,12 @@ class LeafEvaluator {
     // Whether it pays to judge a leaf that another worker is judging already.
     virtual bool shares_leaves() const = 0;
     virtual OwnerTally* tally() { return nullptr; }
+    // Of a leaf that has been absorbed and has its children now: remembers to ask a network about
+    // it, where priors and value come from one later.
+    virtual void defer(const Leaf<G>&) {}
+    // Leaves of which that has been asked since, by any worker: their priors and values. Valid
+    // until the next call.
+    virtual std::span<const Leaf<G>> judge_deferred() { return {}; }
     // As Evaluator's.
     virtual void warm_up(const G&, int /*most*/) {}
 };

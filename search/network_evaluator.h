@@ -1,5 +1,6 @@
 // The evaluator at the bottom: positions to tensors by the game's encoding, an executor, outputs
-// to answers. It does what each query says: symmetries are chosen and averaged elsewhere.
+// to answers. It does what each query says: symmetries are chosen and averaged elsewhere. Of a
+// network without a policy the priors are empty, of one without a value it is 0.
 #pragma once
 
 #include <algorithm>
@@ -126,9 +127,10 @@ class NetworkEvaluator final : public Evaluator<G> {
     }
 
     bool read_policy(const Query<G>& query, std::size_t index) {
-        const auto logits = result(outputs_.policy, index);
         auto& priors = query.answer->priors;
         priors.clear();
+        if (!outputs_.policy) return true;
+        const auto logits = result(*outputs_.policy, index);
         for (const engine::Move move : *query.moves) {
             const int at = encoding_.policy_index(*query.game, move);
             priors.push_back(logits[turned_index(static_cast<std::size_t>(at), query.symmetry)]);
@@ -137,6 +139,7 @@ class NetworkEvaluator final : public Evaluator<G> {
     }
 
     bool read_value(const G& game, std::size_t index, Evaluation& to) const {
+        if (!outputs_.wdl && !outputs_.value) return set_value(0, to);
         const bool sound = outputs_.wdl
                                ? set_outcomes(result(*outputs_.wdl, index), has_draws(game), to)
                                : set_value(result(*outputs_.value, index)[0], to);
@@ -193,7 +196,7 @@ class NetworkSource final : public EvaluatorSource<G> {
         if (facts.game != G::name)
             engine::fail("the network {} plays {}, not {}", facts.name, facts.game, G::name);
         encoding_ = &engine::find_encoding<G>(facts.encoding);
-        OutputMap{network_->graph()};
+        OutputMap(network_->graph()).check(facts.name);
     }
 
     std::unique_ptr<Evaluator<G>> make_evaluator() const override {

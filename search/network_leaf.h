@@ -16,6 +16,14 @@
 
 namespace search {
 
+// Evens the priors out above a temperature of 1, sharpens them below.
+inline void temper(std::vector<float>& priors, float temperature) {
+    if (temperature == 1) return;
+    float sum = 0;
+    for (float& prior : priors) sum += prior = std::pow(prior, 1 / temperature);
+    for (float& prior : priors) prior /= sum;
+}
+
 template <engine::Game G>
 class NetworkLeaf final : public LeafEvaluator<G> {
    public:
@@ -60,13 +68,6 @@ class NetworkLeaf final : public LeafEvaluator<G> {
         temper(answer.priors, root ? temperatures_.root : temperatures_.elsewhere);
         sort(answer.priors, leaf.moves);
         leaf.priors.swap(answer.priors);
-    }
-
-    static void temper(std::vector<float>& priors, float temperature) {
-        if (temperature == 1) return;
-        float sum = 0;
-        for (float& prior : priors) sum += prior = std::pow(prior, 1 / temperature);
-        for (float& prior : priors) prior /= sum;
     }
 
     // Both by the priors, the highest first and equals as they were. The bits of floats that are

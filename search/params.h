@@ -6,12 +6,14 @@
 #include <string_view>
 
 #include "engine/base/option.h"
+#include "search/evaluator.h"
 
 namespace search {
 
 // How a search goes about it; without a network always by games played out.
-enum class Method : std::uint8_t { automatic, uct, puct, gumbel };
-inline constexpr std::array<std::string_view, 4> method_names = {"auto", "uct", "puct", "gumbel"};
+enum class Method : std::uint8_t { automatic, uct, puct, gumbel, alphago };
+inline constexpr std::array<std::string_view, 5> method_names = {"auto", "uct", "puct", "gumbel",
+                                                                 "alphago"};
 
 inline constexpr int full_level = 20;
 
@@ -33,6 +35,10 @@ struct SearchParams {
     float noise = 0, noise_alpha = 0;  // of the priors at the root (Dirichlet)
     int gumbel_moves = 16;             // root moves that take part (gumbel)
     float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
+    float lambda = 0.5f;
+    int n_thr = 15;
+    Prior prior = Prior::supervised;
+    float alphago_cpuct = 5, alphago_temperature = 0.67f, alphago_virtual_loss = 3;
     float temperature = 0;      // of the choice of a move by its visits
     int temperature_plies = 0;  // moves of a game that it is for; 0: all
     float draw_score = 0;       // what a draw is worth to the side that thinks, -1..1
@@ -54,7 +60,8 @@ struct SearchParams {
         return std::tuple{
             Choice<P, Method>{"search", &P::method, method_names,
                               "auto: puct with a network, uct (games played out) without; gumbel: "
-                              "puct below a root that halves its candidates"},
+                              "puct below a root that halves its candidates; alphago: "
+                              "rollouts and networks blended"},
             Option<P, int>{"threads", &P::threads, 1, 1024, "worker threads"},
             Option<P, int>{"memory", &P::memory_mib, 16, 1 << 20, "MiB for tree and caches"},
             Option<P, int>{"seed", &P::seed, 0, 0x7fffffff, "of all randomness"},
@@ -93,6 +100,18 @@ struct SearchParams {
             Option<P, float>{"gumbel-scale", &P::gumbel_scale, 0, 1000, "c_scale (gumbel)"},
             Option<P, float>{"gumbel-noise", &P::gumbel_noise, 0, 10,
                              "of the choice of candidates; 1 in self-play (gumbel)"},
+            Option<P, float>{"lambda", &P::lambda, 0, 1,
+                             "share of rollouts in a value, the rest is the network's (alphago)"},
+            Option<P, int>{"n-thr", &P::n_thr, 1, 100'000,
+                           "visits at which a leaf gets children and networks are asked (alphago); "
+                           "the paper: 40"},
+            Choice<P, Prior>{"prior", &P::prior, prior_names,
+                             "policy network that the priors are of (alphago)"},
+            Option<P, float>{"alphago-cpuct", &P::alphago_cpuct, 0, 100, "c of PUCT (alphago)"},
+            Option<P, float>{"alphago-temperature", &P::alphago_temperature, 0.1f, 10,
+                             "of the priors (alphago)"},
+            Option<P, float>{"alphago-virtual-loss", &P::alphago_virtual_loss, 0, 100,
+                             "rollouts lost that a visit under way counts (alphago)"},
             Option<P, float>{"temperature", &P::temperature, 0, 10,
                              "moves are drawn by visits^(1/temperature); 0: the best"},
             Option<P, int>{"temperature-plies", &P::temperature_plies, 0, 1000,

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/game.h"
+#include "search/alphago_leaf.h"
 #include "search/analysis.h"
 #include "search/cached_evaluator.h"
 #include "search/clock.h"
@@ -96,6 +97,7 @@ class Searcher {
 
     void rebuild(const SearchParams& params);
     bool uses_network() const { return network_ && params_.method != Method::uct; }
+    bool uses_alphago() const { return uses_network() && params_.method == Method::alphago; }
     bool uses_gumbel() const { return uses_network() && params_.method == Method::gumbel; }
     // Analysis without an end shows what is there, at full strength.
     static bool plays(const Limits& limits) { return !limits.endless(); }
@@ -127,6 +129,7 @@ class Searcher {
     SearchParams params_;
     std::shared_ptr<const EvaluatorSource<G>> network_;
     std::shared_ptr<EvaluationCache> cache_;  // with a network
+    std::shared_ptr<LateLeaves<G>> unanswered_ = std::make_shared<LateLeaves<G>>();
     std::unique_ptr<TreeSearch<G>> search_;
     std::vector<std::unique_ptr<Worker<G>>> workers_;
     LagMeter late_;
@@ -195,8 +198,14 @@ void Searcher<G>::warm_up() {
 template <engine::Game G>
 std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t seed) const {
     if (!uses_network()) return std::make_unique<RolloutLeaf<G>>(seed);
-    auto turned = std::make_unique<SymmetryEvaluator<G>>(network_->make_evaluator(), seed);
+    auto network =
+        uses_alphago() ? network_->make_evaluator_of(params_.prior) : network_->make_evaluator();
+    auto turned = std::make_unique<SymmetryEvaluator<G>>(std::move(network), seed);
     auto cached = std::make_unique<CachedEvaluator<G>>(std::move(turned), cache_);
+    if (uses_alphago())
+        return std::make_unique<AlphaGoLeaf<G>>(
+            std::move(cached), network_->make_rollouts(), unanswered_,
+            AlphaGoParams{params_.lambda, params_.alphago_temperature, params_.batch}, seed);
     typename NetworkLeaf<G>::Temperatures temperatures;
     temperatures.elsewhere = params_.policy_temperature;
     const float root = params_.root_policy_temperature;
@@ -211,7 +220,7 @@ void Searcher<G>::hire() {
     workers_.clear();
     for (int i = 0; i < params_.threads; ++i) {
         const auto seed = static_cast<std::uint64_t>(params_.seed) << 32 | static_cast<unsigned>(i);
-        const int batch = uses_network() ? params_.batch : 1;
+        const int batch = uses_network() && !uses_alphago() ? params_.batch : 1;
         workers_.push_back(std::make_unique<Worker<G>>(make_leaf_evaluator(seed), batch));
     }
     crew_ = std::make_unique<Crew>(params_.threads + 1);
@@ -222,7 +231,8 @@ template <engine::Game G>
 void Searcher<G>::set_params(const SearchParams& params) {
     crew_->wait();
     const auto old = std::exchange(params_, params);
-    if (old.memory_mib != params.memory_mib || old.method != params.method) {
+    if (old.memory_mib != params.memory_mib || old.method != params.method ||
+        old.prior != params.prior) {
         const G root = position();
         rebuild(params);
         return set_position(root);
@@ -232,7 +242,7 @@ void Searcher<G>::set_params(const SearchParams& params) {
     if (old.draw_score != params.draw_score) search_->set_root(G(position()));
     const auto workers = [](const SearchParams& of) {
         return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries, of.policy_temperature,
-                          of.root_policy_temperature);
+                          of.root_policy_temperature, of.lambda, of.alphago_temperature);
     };
     if (workers(old) != workers(params)) hire();
 }
@@ -280,7 +290,7 @@ Analysis Searcher<G>::analysis(int most_moves, int variation_length) const {
     const Node& root = tree[tree.root()];
     Analysis picture;
     picture.visits = root.visits;
-    picture.value = -root.mean();
+    picture.value = -tree.value(root);
     picture.elapsed = elapsed_.value_or(since(started_));
     std::uint64_t steps = 0, deepest = 0;
     for (const auto& worker : workers_) {
@@ -306,7 +316,7 @@ Telling Searcher<G>::telling(int most_moves, int variation_length) const {
     telling.variation_length = variation_length;
     telling.draw_score = params_.draw_score;
     telling.first = chosen_;
-    telling.by_bound = uses_network() && params_.lower_bound;
+    telling.by_bound = uses_network() && !uses_alphago() && params_.lower_bound;
     return telling;
 }
 

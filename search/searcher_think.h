@@ -37,6 +37,7 @@ void Searcher<G>::begin_tree(const Limits& limits) {
     search_->favour(position().to_play());
     search_->restrict_root(filter, limits.only);
     for (const auto& worker : workers_) worker->reset_counts();
+    unanswered_->clear();
     started_ = Clock::now();
     fault_.clear();
     elapsed_.reset();
@@ -84,7 +85,10 @@ void Searcher<G>::prepare_root() {
 template <engine::Game G>
 void Searcher<G>::meet() {
     const std::lock_guard lock(picture_mutex_);
-    if (team_->full.exchange(false)) search_->flip();
+    if (team_->full.exchange(false)) {
+        unanswered_->clear();
+        search_->flip();
+    }
     if (team_->meets_at_root && search_->tree()[search_->tree().root()].expanded()) prepare_root();
 }
 

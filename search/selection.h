@@ -115,6 +115,39 @@ struct Puct {
     float virtual_loss = 1;
 };
 
+// AlphaGo's PUCT with two counts (Silver et al. 2016): rollouts and networks are averaged apart and
+// blended by lambda, and exploration goes by rollouts alone. A visit under way counts as
+// `virtual_loss` rollouts lost; an unvisited move is worth a draw.
+struct TwoCounts {
+    float exploration = 5, lambda = 0.5f, virtual_loss = 3;
+
+    class AtNode {
+       public:
+        AtNode(const TwoCounts& rule, const Node& parent)
+            : rule_(rule),
+              scale_(rule.exploration * std::sqrt(std::max(rule.count(parent), 1.0f))) {}
+
+        float score(const Edge& edge, const Node* child) const {
+            const float prior = scale_ * edge.prior();
+            if (!child) return prior;
+            const float losses = rule_.losses(*child);
+            return child->blended(rule_.lambda, static_cast<double>(losses)) +
+                   prior / (1 + rule_.count(*child));
+        }
+
+       private:
+        const TwoCounts& rule_;
+        float scale_;
+    };
+
+    float losses(const Node& node) const {
+        return virtual_loss * static_cast<float>(node.in_flight.load(std::memory_order_relaxed));
+    }
+    float count(const Node& node) const {
+        return static_cast<float>(node.visits.load(std::memory_order_relaxed)) + losses(node);
+    }
+};
+
 template <class Allowed>
 Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
     constexpr auto relaxed = std::memory_order_relaxed;

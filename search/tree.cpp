@@ -21,9 +21,9 @@ constexpr std::size_t least_budget = std::size_t{1} << 20, most_budget = std::si
 void copy_counts(const Node& from, Node& to) {
     constexpr auto relaxed = std::memory_order_relaxed;
     to.value_sum.store(from.value_sum.load(relaxed), relaxed);
-    to.rollout_sum.store(from.rollout_sum.load(relaxed), relaxed);
+    to.network_sum.store(from.network_sum.load(relaxed), relaxed);
     to.visits.store(from.visits.load(relaxed), relaxed);
-    to.rollout_visits.store(from.rollout_visits.load(relaxed), relaxed);
+    to.network_visits.store(from.network_visits.load(relaxed), relaxed);
     to.stage.store(from.stage.load(relaxed), relaxed);
     to.ending.store(from.ending.load(relaxed), relaxed);
     to.plies.store(from.plies.load(relaxed), relaxed);
@@ -162,7 +162,8 @@ bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const floa
     for (std::size_t i = 0; i < count; ++i) {
         Edge& edge = *new (&edges[i]) Edge;
         edge.move = moves[static_cast<int>(i)];
-        edge.packed_prior = priors.empty() ? equal : pack_prior(priors[i]);
+        edge.packed_prior.store(priors.empty() ? equal : pack_prior(priors[i]),
+                                std::memory_order_relaxed);
     }
     parent.stage.store(Stage::expanded, std::memory_order_release);
     return true;
@@ -209,10 +210,25 @@ void Tree::clear() {
 }
 
 void Tree::replace_root_priors(std::span<const float> priors) {
-    const auto edges = edge_span(node(root_));
-    assert(priors.size() == edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) edges[i].packed_prior = pack_prior(priors[i]);
+    set_priors(root_, priors);
     node(root_).in_order = 0;
+}
+
+void Tree::set_priors(NodeId id, std::span<const float> priors) {
+    const auto edges = edge_span(node(id));
+    assert(priors.size() == edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        edges[i].packed_prior.store(pack_prior(priors[i]), std::memory_order_relaxed);
+}
+
+void Tree::add_network_value(const Path& path, float value) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    auto amount = fixed_point(value);
+    for (auto id = path.rbegin(); id != path.rend(); ++id) {
+        amount = -amount;
+        node(*id).network_sum.fetch_add(amount, relaxed);
+        node(*id).network_visits.fetch_add(1, relaxed);
+    }
 }
 
 bool Tree::advance(engine::Move move) {
@@ -248,7 +264,7 @@ NodeId Tree::copy(NodeId passive, std::size_t reserve) {
     for (std::size_t i = 0; i < old_edges.size(); ++i) {
         Edge& edge = *new (&new_edges[i]) Edge;
         edge.move = old_edges[i].move;
-        edge.packed_prior = old_edges[i].packed_prior;
+        edge.packed_prior.store(old_edges[i].packed_prior, std::memory_order_relaxed);
         edge.amaf.copy(old_edges[i].amaf);
         const NodeId kept = child(passive, old_edges[i]);
         edge.child.store(kept, std::memory_order_relaxed);

@@ -74,10 +74,10 @@ class AmafCount {
 struct Edge {
     std::atomic<NodeId> child = no_node;
     engine::Move move;
-    std::uint16_t packed_prior = 0;
+    std::atomic<std::uint16_t> packed_prior = 0;
     AmafCount amaf;
 
-    float prior() const { return unpack_prior(packed_prior); }
+    float prior() const { return unpack_prior(packed_prior.load(std::memory_order_relaxed)); }
 };
 static_assert(sizeof(Edge) <= 12);
 
@@ -89,9 +89,9 @@ enum class Ending : std::uint8_t { unknown, none, draw, win, loss };
 
 struct Node {
     std::atomic<std::int64_t> value_sum = 0;    // as the player who moved here sees it
-    std::atomic<std::int64_t> rollout_sum = 0;  // likewise, where rollouts count apart (AlphaGo)
+    std::atomic<std::int64_t> network_sum = 0;  // likewise, where networks count apart (AlphaGo)
     std::atomic<std::uint32_t> visits = 0;
-    std::atomic<std::uint32_t> rollout_visits = 0;
+    std::atomic<std::uint32_t> network_visits = 0;
     NodeId first_edge = no_node;
     std::uint16_t edge_count : 15 = 0;
     std::uint16_t in_order : 1 = 0;
@@ -112,6 +112,15 @@ struct Node {
         const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed));
         return static_cast<float>((sum / value_unit - losses) / n);
     }
+    // AlphaGo's: lambda times the above and the rest the mean of what networks said; one of them
+    // alone where the other is not known yet.
+    float blended(float lambda, double losses = 0) const {
+        const auto said = network_visits.load(std::memory_order_relaxed);
+        if (said == 0) return mean(losses);
+        const auto sum = static_cast<double>(network_sum.load(std::memory_order_relaxed));
+        const auto value = static_cast<float>(sum / value_unit / said);
+        return lambda * mean(losses) + (1 - lambda) * value;
+    }
     // Of the values about their mean, of at least two visits; 0 below.
     float variance() const;
 };
@@ -126,6 +135,10 @@ class Tree {
     explicit Tree(std::size_t budget_bytes);
     Tree(const Tree&) = delete;
     Tree& operator=(const Tree&) = delete;
+
+    // From now on values are Node::blended with this share, 1 being Node::mean.
+    void set_blend(float lambda) { blend_ = lambda; }
+    float value(const Node& node) const { return blend_ == 1 ? node.mean() : node.blended(blend_); }
 
     NodeId root() const { return root_; }
     const Node& operator[](NodeId id) const { return node(id); }
@@ -161,6 +174,10 @@ class Tree {
     // Records in the edges of an expanded node what a rollout of `value`, as the mover sees it,
     // says of moves made later: `firsts` by move code as engine::RolloutResult, `mover` as there.
     void add_amaf(NodeId id, std::span<const std::int8_t> firsts, int mover, float value);
+    // What a network says later of the end of a path whose descent has ended, and its priors there,
+    // one a move. Since then no flip() may have been.
+    void add_network_value(const Path& path, float value);
+    void set_priors(NodeId id, std::span<const float> priors);
     // Ends a descent that came to nothing.
     void withdraw(const Path& path);
 
@@ -193,6 +210,7 @@ class Tree {
     std::size_t passive_used_ = 0;  // units
     std::atomic<std::size_t> next_ = 0;
     NodeId root_ = no_node;
+    float blend_ = 1;
 };
 
 }  // namespace search

@@ -40,14 +40,16 @@ int moves_to_come(const G& game) {
 template <engine::Game G>
 class TreeSearch {
    public:
-    using Rule = std::variant<Ucb1, Rave, Puct>;
+    using Rule = std::variant<Ucb1, Rave, Puct, TwoCounts>;
 
     // `network`: whether leaves are judged by one.
     explicit TreeSearch(const SearchParams& params, bool network = false)
         : params_(params),
           network_(network),
           rule_(rule_of(params, network)),
-          tree_(static_cast<std::size_t>(params.memory_mib) << 20) {}
+          tree_(static_cast<std::size_t>(params.memory_mib) << 20) {
+        tree_.set_blend(blend());
+    }
 
     const Tree& tree() const { return tree_; }
     const G& root() const { return root_; }
@@ -68,6 +70,7 @@ class TreeSearch {
     void set_params(const SearchParams& params) {
         params_ = params;
         rule_ = rule_of(params, network_);
+        tree_.set_blend(blend());
     }
 
     // The moves of the tree, two at most, from the root to `game`; empty when there is no such
@@ -155,6 +158,12 @@ class TreeSearch {
         return fits;
     }
 
+    // What a network said of a leaf since it was absorbed.
+    void absorb_late(const Leaf<G>& leaf) {
+        if (!leaf.priors.empty()) tree_.set_priors(leaf.path.back(), leaf.priors);
+        tree_.add_network_value(leaf.path, std::clamp(leaf.value, -1.0f, 1.0f));
+    }
+
     // Undoes gather() for a leaf that could not be evaluated.
     void abandon(const Leaf<G>& leaf) {
         if (leaf.expands) tree_.unclaim(leaf.path.back());
@@ -162,8 +171,14 @@ class TreeSearch {
     }
 
    private:
+    bool is_alphago() const { return network_ && params_.method == Method::alphago; }
+    float blend() const { return is_alphago() ? params_.lambda : 1; }
+    int visits_to_expand() const { return is_alphago() ? params_.n_thr : params_.expand_after; }
+
     static Rule rule_of(const SearchParams& params, bool network) {
         constexpr bool weighs = engine::WeighsMoves<typename engine::RolloutsOf<G>::type, G>;
+        if (network && params.method == Method::alphago)
+            return TwoCounts{params.alphago_cpuct, params.lambda, params.alphago_virtual_loss};
         if (network)
             return Puct{params.cpuct,         params.cpuct_factor,       params.cpuct_base,
                         params.fpu_reduction, params.root_fpu_reduction, params.virtual_loss};
@@ -232,7 +247,7 @@ class TreeSearch {
     Gathered prepare(Leaf<G>& leaf, NodeId node, bool share) {
         const auto visits = tree_[node].visits.load(std::memory_order_relaxed);
         const bool due =
-            node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(params_.expand_after);
+            node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(visits_to_expand());
         leaf.expands = due && tree_.claim(node);
         if (due && !leaf.expands && !share) return tree_.withdraw(leaf.path), Gathered::taken;
         if (leaf.expands) leaf.moves = sensible_moves(leaf.game, network_ || node == tree_.root());

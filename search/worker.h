@@ -103,11 +103,14 @@ class Worker {
         if (gathered == 0) return used;
         evaluate(search, std::span(leaves_).first(gathered));
         for (std::size_t i = 0; i < gathered; ++i) {
-            if (!search.absorb(leaves_[i])) call_for_room(team);
+            const bool fits = search.absorb(leaves_[i]);
+            if (!fits) call_for_room(team);
+            if (fits && leaves_[i].expands) evaluator_->defer(leaves_[i]);
             const bool new_root = leaves_[i].expands && leaves_[i].path.size() == 1;
             if (new_root && team.meets_at_root) team.meeting.call();
             count(leaves_[i]);
         }
+        for (const Leaf<G>& leaf : evaluator_->judge_deferred()) search.absorb_late(leaf);
         return true;
     }
 

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/games.h"
-#include "search/load_network.h"
+#include "search/load_player.h"
 #include "selfplay/gnushogi_player.h"
 #include "selfplay/gtp_player.h"
 #include "selfplay/in_process_player.h"
@@ -53,7 +53,7 @@ template <engine::Game G>
 typename InProcessPlayer<G>::Load loader_of(const InternalSettings& settings) {
     if (settings.weights.empty()) return {};
     return [weights = settings.weights, precision = settings.precision](const G& start) {
-        return search::load_network(weights, precision, start);
+        return search::load_player(weights, precision, start);
     };
 }
 
