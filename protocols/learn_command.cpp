@@ -7,6 +7,7 @@
 #include "engine/games.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "protocols/learn_stage.h"
 #include "protocols/setting_flags.h"
 #include "protocols/stop_on_signal.h"
 #include "selfplay/training/lecture.h"
@@ -42,8 +43,11 @@ void add_flags(CLI::App& app, Input& input) {
 }  // namespace
 
 int run_learn(Arguments arguments) {
-    CLI::App app("Learns from recorded games and writes a network; nothing is played",
-                 "sanban learn");
+    if (const auto status = run_learn_stage(arguments)) return *status;
+    CLI::App app(
+        "Learns from recorded games and writes a network; nothing is played. The stages of "
+        "AlphaGo's training have flags of their own: sanban learn rollout --help",
+        "sanban learn");
     Input input;
     add_flags(app, input);
     if (const auto status = parse_flags(app, arguments)) return *status;

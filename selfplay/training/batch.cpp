@@ -41,12 +41,14 @@ void Batch::fill(std::span<const Lesson> lessons, int board,
 
 void Batch::add(const Lesson& lesson, Loss loss, Rows& rows) {
     bool known = true;
+    float weight = 1;
     switch (loss) {
         case Loss::policy:
             rows.starts.push_back(static_cast<int>(rows.moves.size()));
             rows.moves.insert(rows.moves.end(), lesson.moves.begin(), lesson.moves.end());
             append(lesson.policy, rows.numbers);
             known = teaches(lesson.policy);
+            weight = lesson.policy_weight;
             break;
         case Loss::distribution:
             append(lesson.outcome, rows.numbers);
@@ -66,7 +68,7 @@ void Batch::add(const Lesson& lesson, Loss loss, Rows& rows) {
             rows.numbers.push_back(lesson.moves_left);
             break;
     }
-    rows.weights.push_back(known ? 1.0f : 0.0f);
+    rows.weights.push_back(known ? weight : 0.0f);
 }
 
 }  // namespace selfplay::training

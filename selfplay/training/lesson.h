@@ -17,6 +17,7 @@ struct Lesson {
     std::vector<float> planes, globals;
     std::vector<int> moves;     // the legal ones, as places in the network's policy
     std::vector<float> policy;  // per move, summing to 1; all 0 where the search was not to teach
+    float policy_weight = 1;    // of the policy in the loss; negative: what not to do
     std::array<float, 3> outcome{};  // of win, draw, loss
     float value = 0;                 // win less loss
     // Whether the game was played to its end and counted; else the two below say nothing.

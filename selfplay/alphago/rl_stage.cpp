@@ -1,0 +1,202 @@
+#include "selfplay/alphago/rl_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/files.h"
+#include "nn/load.h"
+#include "selfplay/alphago/policy_games.h"
+#include "selfplay/training/batch.h"
+#include "selfplay/training/student.h"
+
+namespace selfplay::alphago {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+training::LearnSettings learning(const RlSettings& settings) {
+    training::LearnSettings learn;
+    learn.optimiser = nn::training::Method::sgd;
+    learn.momentum = 0;
+    learn.weight_decay = 0;
+    learn.warm_up = 0;
+    learn.average = 0;
+    learn.rate = settings.rate;
+    learn.most_norm = settings.most_norm;
+    learn.micro_batch = settings.micro_batch;
+    return learn;
+}
+
+nn::Graph policy_of(const fs::path& path) {
+    auto graph = nn::load(path);
+    if (graph.facts.game != go::Go::name || !graph.output("policy") || graph.facts.board == 0)
+        engine::fail("{}: expected a policy network of Go on one board", path.string());
+    graph.facts.steps = 0;
+    return graph;
+}
+
+class RlStage {
+   public:
+    RlStage(const StageInput& input, const fs::path& policy, const fs::path& baseline,
+            const RlSettings& settings, const std::stop_token& stop)
+        : input_(input),
+          settings_(settings),
+          first_(policy_of(policy)),
+          folder_(input.folder),
+          state_(folder_.state()),
+          student_(first_, learning(settings), input.threads, folder_, input.say),
+          workers_(input.threads),
+          random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
+                                static_cast<std::uint64_t>(student_.steps()))),
+          watch_(input, stop) {
+        fs::create_directories(folder_.snapshots());
+        if (pool().empty()) nn::save(first_, snapshot(0));
+        if (!baseline.empty())
+            baseline_.emplace(
+                std::make_shared<const search::Network>(nn::load(baseline), nn::Precision::bf16));
+    }
+
+    void run() {
+        while (!watch_.over() && !done()) {
+            update();
+            if (student_.steps() % settings_.snapshot_updates == 0) take_snapshot();
+        }
+        keep();
+    }
+
+   private:
+    int size() const { return first_.facts.board; }
+    bool done() const { return settings_.updates > 0 && student_.steps() >= settings_.updates; }
+
+    fs::path snapshot(std::int64_t step) const {
+        return folder_.snapshots() / fmt::format("{:08}.safetensors", step);
+    }
+    std::vector<fs::path> pool() const {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(folder_.snapshots()))
+            if (entry.path().extension() == ".safetensors") files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        return files;
+    }
+
+    // The student has Black in every second game.
+    static bool is_students(const Playing& playing) {
+        const bool black = playing.number % 2 == 0;
+        return (playing.game.to_play() == engine::Player::first) == black;
+    }
+    std::vector<Playing> play(int games, std::shared_ptr<const search::Network> opponent) {
+        const Networks networks{playing_network(student_.newest()), std::move(opponent)};
+        const Plan plan{[](const Playing& playing) { return is_students(playing) ? 0 : 1; },
+                        is_students};
+        return play_games(games, size(), random_(), networks, plan, workers_);
+    }
+    static float students_result(const Playing& playing) {
+        return result_for(playing.record,
+                          playing.number % 2 == 0 ? engine::Player::first : engine::Player::second);
+    }
+    static double score(std::span<const Playing> games) {
+        double score = 0;
+        for (const auto& playing : games) score += (1 + double{students_result(playing)}) / 2;
+        return score / static_cast<double>(games.size());
+    }
+
+    void update() {
+        const auto files = pool();
+        const auto& drawn =
+            files[static_cast<std::size_t>(random_.below(static_cast<int>(files.size())))];
+        const auto games = play(settings_.games, playing_network(nn::load(drawn)));
+        learn(games);
+        const nlohmann::ordered_json line{{"stage", "rl"},
+                                          {"minutes", (state_.seconds + watch_.seconds()) / 60},
+                                          {"update", student_.steps()},
+                                          {"opponent", drawn.stem().string()},
+                                          {"games", games.size()},
+                                          {"score", score(games)},
+                                          {"plies", plies(games)}};
+        tell(line);
+    }
+
+    static double plies(std::span<const Playing> games) {
+        double sum = 0;
+        for (const auto& playing : games) sum += static_cast<double>(playing.record.turns.size());
+        return sum / static_cast<double>(games.size());
+    }
+
+    void learn(std::span<const Playing> games) {
+        const auto& encoding = engine::find_encoding<go::Go>(first_.facts.encoding);
+        std::vector<training::Lesson> lessons;
+        for (const auto& playing : games)
+            for (std::size_t turn = 0; turn < playing.record.turns.size(); ++turn) {
+                if (playing.record.turns[turn].share_count == 0) continue;
+                training::write_lesson(playing.record, turn, encoding, 0, 0,
+                                       lessons.emplace_back());
+                lessons.back().policy_weight = students_result(playing) - expected(playing, turn);
+            }
+        training::Batch batch;
+        batch.fill(lessons, size(), student_.terms());
+        student_.learn(batch.samples());
+        student_.take_quality();
+    }
+
+    // What the baseline says of the position, as the student sees it; 0 without one.
+    float expected(const Playing& playing, std::size_t turn) {
+        if (!baseline_) return 0;
+        const auto game = training::position_of<go::Go>(playing.record, turn);
+        const engine::MoveList none;
+        search::Evaluation answer;
+        const search::Query<go::Go> query{&game, &none, 0, &answer};
+        baseline_->evaluate({&query, 1});
+        return answer.value();
+    }
+
+    void take_snapshot() {
+        nn::save(student_.newest(), snapshot(student_.steps()));
+        keep();
+        if (settings_.judge_games == 0) return;
+        const auto games = play(settings_.judge_games, playing_network(first_));
+        const nlohmann::ordered_json line{{"stage", "rl"},
+                                          {"minutes", (state_.seconds + watch_.seconds()) / 60},
+                                          {"update", student_.steps()},
+                                          {"opponent", "first"},
+                                          {"games", games.size()},
+                                          {"score_against_first", score(games)}};
+        tell(line);
+    }
+
+    void keep() {
+        student_.save();
+        nn::save(student_.newest(), folder_.latest());
+        auto now = state_;
+        now.seconds += watch_.seconds();
+        folder_.keep(now);
+    }
+
+    void tell(const nlohmann::ordered_json& line) const {
+        engine::append_file(input_.folder / "rl.jsonl", line.dump() + '\n');
+        input_.report(line.dump());
+    }
+
+    const StageInput& input_;
+    const RlSettings& settings_;
+    nn::Graph first_;
+    training::RunFolder folder_;
+    training::RunState state_;  // before this call
+    training::Student student_;
+    nn::training::Workers workers_;
+    engine::Random random_;
+    Watch watch_;
+    std::optional<search::NetworkEvaluator<go::Go>> baseline_;
+};
+
+}  // namespace
+
+void learn_rl(const StageInput& input, const fs::path& policy, const fs::path& baseline,
+              const RlSettings& settings, const std::stop_token& stop) {
+    RlStage(input, policy, baseline, settings, stop).run();
+}
+
+}  // namespace selfplay::alphago

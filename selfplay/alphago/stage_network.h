@@ -1,0 +1,63 @@
+// AlphaGo's networks as the stages build them, and the batches of positions they learn from.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "engine/base/option.h"
+#include "nn/graph.h"
+#include "nn/training/workers.h"
+#include "selfplay/alphago/expert_games.h"
+#include "selfplay/training/batch.h"
+
+namespace selfplay::alphago {
+
+// `raw`: stones and their past alone, as the paper compares with.
+enum class Planes : std::uint8_t { all, raw };
+inline constexpr std::array<std::string_view, 2> planes_names = {"all", "raw"};
+
+struct StageNetwork {
+    int layers = 12, filters = 64, size = 19;
+    Planes planes = Planes::all;
+
+    std::string_view encoding() const { return planes == Planes::raw ? "alphazero" : "alphago48"; }
+
+    static constexpr auto options() {
+        using engine::Choice;
+        using engine::Option;
+        using P = StageNetwork;
+        return std::tuple{
+            Option<P, int>{"layers", &P::layers, 1, 80, "convolutions before the head"},
+            Option<P, int>{"filters", &P::filters, 1, 1024, "of each; the paper: 192"},
+            Option<P, int>{"size", &P::size, go::min_size, go::max_size, "of the board"},
+            Choice<P, Planes>{"planes", &P::planes, planes_names,
+                              "what it sees: all 48 planes, or raw: stones and their past"},
+        };
+    }
+};
+
+// With random weights.
+nn::Graph new_policy(const StageNetwork& network, std::uint64_t seed);
+nn::Graph new_value(const StageNetwork& network, std::uint64_t seed);
+
+// Positions of expert games as batches, encoded on threads of its own. One owner, one thread.
+class ExpertBatches {
+   public:
+    ExpertBatches(std::string_view encoding, int threads)
+        : encoding_(engine::find_encoding<go::Go>(encoding)), workers_(threads) {}
+
+    // One symmetry a place. Shown until the next call.
+    const nn::training::Samples& make(std::span<const ExpertPlace> places,
+                                      std::span<const int> symmetries,
+                                      std::span<const nn::training::Term> terms);
+
+   private:
+    const engine::Encoding<go::Go>& encoding_;
+    nn::training::Workers workers_;
+    std::vector<training::Lesson> lessons_;
+    training::Batch batch_;
+};
+
+}  // namespace selfplay::alphago

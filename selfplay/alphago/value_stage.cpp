@@ -1,0 +1,207 @@
+#include "selfplay/alphago/value_stage.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/files.h"
+#include "nn/load.h"
+#include "selfplay/alphago/policy_games.h"
+#include "selfplay/alphago/stage_network.h"
+#include "selfplay/records/segment.h"
+#include "selfplay/training/replay.h"
+#include "selfplay/training/student.h"
+
+namespace selfplay::alphago {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Plays games until the archive holds enough of them, or time is up.
+class ValueGames {
+   public:
+    ValueGames(const StageInput& input, const ValuePlayers& players, const ValueSettings& settings,
+               const Watch& watch)
+        : input_(input),
+          settings_(settings),
+          watch_(watch),
+          archive_(input.folder / "games"),
+          workers_(input.threads) {
+        for (const auto& path : {players.policy, players.reinforced}) {
+            networks_.push_back(playing_network(nn::load(path)));
+            if (size() == 0 || networks_.front()->graph().facts.board != size())
+                engine::fail("{}: expected a policy network of Go on the board of the other",
+                             path.string());
+        }
+        if (!archive_.damage().empty()) input.say(archive_.damage());
+    }
+
+    void play() {
+        auto held = count();
+        const auto wanted = static_cast<std::size_t>(settings_.games);
+        engine::Random random(engine::mixed(static_cast<std::uint64_t>(settings_.seed), held));
+        double told = watch_.seconds();
+        while (held < wanted && !watch_.over()) {
+            held += play_some(random());
+            if (watch_.seconds() < told + 15 && held < wanted) continue;
+            told = watch_.seconds();
+            input_.say(fmt::format("{} of {} games", held, wanted));
+        }
+    }
+
+    std::vector<records::Game> read() const {
+        std::vector<records::Game> games;
+        for (const auto& path : archive_.segments()) {
+            auto segment = records::unpack(engine::read_file(path));
+            std::move(segment.games.begin(), segment.games.end(), std::back_inserter(games));
+        }
+        return games;
+    }
+    int size() const { return networks_.back()->graph().facts.board; }
+    const nn::Facts& facts() const { return networks_.back()->graph().facts; }
+
+   private:
+    std::size_t count() const { return read().size(); }
+
+    // The move of a game that is drawn uniformly: up to 450 on 19x19 (Silver et al. 2016), fewer on
+    // smaller boards.
+    int drawn_turn(const Playing& playing) const {
+        const int most = std::max(size() * size() * 450 / 361, 2);
+        return engine::Random(playing.seed + 7).below(most);
+    }
+
+    // Games that end before anything is to be learned are played in vain.
+    std::size_t play_some(std::uint64_t seed) {
+        constexpr int together = 64;
+        const auto turn = [](const Playing& playing) { return playing.game.move_count(); };
+        const Plan plan{
+            [&](const Playing& playing) {
+                const int drawn = drawn_turn(playing);
+                return turn(playing) < drawn ? 0 : turn(playing) == drawn ? uniform_policy : 1;
+            },
+            [&](const Playing& playing) { return turn(playing) == drawn_turn(playing) + 1; }};
+        auto games = play_games(together, size(), seed, networks_, plan, workers_);
+        std::vector<records::Game> kept;
+        for (auto& playing : games)
+            if (!playing.record.shares.empty()) kept.push_back(std::move(playing.record));
+        archive_.append(kept);
+        return kept.size();
+    }
+
+    const StageInput& input_;
+    const ValueSettings& settings_;
+    const Watch& watch_;
+    records::Archive archive_;
+    nn::training::Workers workers_;
+    Networks networks_;
+};
+
+training::ReplaySettings replay_settings(const ValueSettings& settings) {
+    training::ReplaySettings replay;
+    replay.window = 100'000'000;
+    replay.held_out = 0.1f;
+    replay.fast_searches = settings.positions == Taught::all;
+    return replay;
+}
+
+StageNetwork shape_of(const nn::Facts& facts) {
+    StageNetwork network;
+    network.layers = facts.blocks;
+    network.filters = facts.channels;
+    network.size = facts.board;
+    return network;
+}
+
+class ValueStage {
+   public:
+    ValueStage(const StageInput& input, const ValueSettings& settings,
+               const training::LearnSettings& learning, const nn::Facts& facts, const Watch& watch)
+        : input_(input),
+          settings_(settings),
+          learning_(learning),
+          watch_(watch),
+          folder_(settings.positions == Taught::all ? input.folder / "all" : input.folder),
+          state_(folder_.state()),
+          student_(new_value(shape_of(facts), static_cast<std::uint64_t>(settings.seed)), learning,
+                   input.threads, folder_, input.say),
+          replay_(replay_settings(settings), "alphago49", input.threads),
+          random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
+                                static_cast<std::uint64_t>(student_.steps()))) {}
+
+    void run(std::vector<records::Game> games) {
+        std::uint64_t played = 0;
+        for (auto& game : games) replay_.add(std::move(game), ++played);
+        input_.say(fmt::format("{} positions to learn from, {} held out",
+                               replay_.lessons().positions(), replay_.held_out().positions()));
+        if (replay_.lessons().positions() == 0 || replay_.held_out().positions() == 0)
+            engine::fail("expected games to learn from and to judge by, found {}", played);
+        double reported = watch_.seconds();
+        while (!watch_.over() && !done()) {
+            student_.learn(replay_.draw(learning_.batch, student_.terms(), random_));
+            if (watch_.seconds() < reported + settings_.report_seconds) continue;
+            report();
+            reported = watch_.seconds();
+        }
+        report();
+    }
+
+   private:
+    bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
+
+    // Of positions that are learned from or held out, judged by the same weights.
+    double error_of(bool held_out) {
+        engine::Random random(1);
+        training::QualityTally tally;
+        for (int judged = 0; judged < settings_.judged; judged += learning_.batch) {
+            const auto& samples =
+                held_out ? replay_.draw_held_out(learning_.batch, student_.terms(), random)
+                         : replay_.draw(learning_.batch, student_.terms(), random);
+            tally.add(student_.judge(samples), student_.terms(), samples.size);
+        }
+        return tally.mean().value_error;
+    }
+
+    void report() {
+        student_.save();
+        nn::save(student_.playable(replay_.draw(1, student_.terms(), random_)), folder_.latest());
+        student_.take_quality();
+        auto now = state_;
+        now.seconds += watch_.seconds();
+        folder_.keep(now);
+        const nlohmann::ordered_json line{
+            {"stage", "value"},
+            {"positions", taught_names[static_cast<std::size_t>(settings_.positions)]},
+            {"minutes", now.seconds / 60},
+            {"steps", student_.steps()},
+            {"samples", student_.steps() * learning_.batch},
+            {"train_error", error_of(false)},
+            {"test_error", error_of(true)}};
+        engine::append_file(folder_.path() / "value.jsonl", line.dump() + '\n');
+        input_.report(line.dump());
+    }
+
+    const StageInput& input_;
+    const ValueSettings& settings_;
+    const training::LearnSettings& learning_;
+    const Watch& watch_;
+    training::RunFolder folder_;
+    training::RunState state_;  // before this call
+    training::Student student_;
+    training::Replay<go::Go> replay_;
+    engine::Random random_;
+};
+
+}  // namespace
+
+void learn_value(const StageInput& input, const ValuePlayers& players,
+                 const ValueSettings& settings, const training::LearnSettings& learning,
+                 const std::stop_token& stop) {
+    const Watch watch(input, stop);
+    ValueGames games(input, players, settings, watch);
+    games.play();
+    if (!watch.over())
+        ValueStage(input, settings, learning, games.facts(), watch).run(games.read());
+}
+
+}  // namespace selfplay::alphago
