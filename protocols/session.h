@@ -19,7 +19,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/option.h"
-#include "engine/game.h"
+#include "engine/games.h"
 #include "search/load_player.h"
 #include "search/mate.h"
 #include "search/searcher.h"
@@ -263,5 +263,10 @@ class GameSession final : public Session {
     std::vector<G> games_;                             // the present state last
     std::function<void(G&)> house_rules_;
 };
+
+// Each compiled once, in a file of its own.
+extern template class GameSession<go::Go>;
+extern template class GameSession<chess::Chess>;
+extern template class GameSession<shogi::Shogi>;
 
 }  // namespace protocols

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/game.h"
+#include "engine/games.h"
 #include "search/alphago_leaf.h"
 #include "search/analysis.h"
 #include "search/cached_evaluator.h"
@@ -338,3 +338,12 @@ void Searcher<G>::add_owners(Analysis& picture) const {
 }  // namespace search
 
 #include "search/searcher_think.h"
+
+namespace search {
+
+// Each compiled once, in a file of its own: nearly all of the search lies behind these.
+extern template class Searcher<go::Go>;
+extern template class Searcher<chess::Chess>;
+extern template class Searcher<shogi::Shogi>;
+
+}  // namespace search

@@ -20,6 +20,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/files.h"
+#include "engine/games.h"
 #include "nn/load.h"
 #include "search/calibrate.h"
 #include "search/network_evaluator.h"
@@ -263,3 +264,12 @@ void Run<G>::learn(const std::stop_token& stop) {
 }  // namespace selfplay::training
 
 #include "selfplay/training/run_publish.h"
+
+namespace selfplay::training {
+
+// Each compiled once, in a file of its own.
+extern template class Run<go::Go>;
+extern template class Run<chess::Chess>;
+extern template class Run<shogi::Shogi>;
+
+}  // namespace selfplay::training

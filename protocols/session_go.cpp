@@ -1,0 +1,8 @@
+// The session of one game, compiled here once for all front ends.
+#include "protocols/session.h"
+
+namespace protocols {
+
+template class GameSession<go::Go>;
+
+}  // namespace protocols
