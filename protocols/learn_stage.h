@@ -1,5 +1,4 @@
-// The stages of AlphaGo's training as words behind `sanban learn`, and all of them as a preset of
-// `sanban train`.
+// The stages of AlphaGo's training as words behind `sanban learn`.
 #pragma once
 
 #include <optional>
@@ -11,9 +10,5 @@ namespace protocols {
 // Runs the stage that the first argument names, with the rest as its flags; nothing where it names
 // none.
 std::optional<int> run_learn_stage(Arguments arguments);
-
-// Whether the flags of `sanban train` ask for AlphaGo's stages; and that, with these flags.
-bool wants_alphago(Arguments arguments);
-int run_train_alphago(Arguments arguments);
 
 }  // namespace protocols

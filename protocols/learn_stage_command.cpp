@@ -1,4 +1,5 @@
-// `sanban learn rollout`, `policy`, `rl` and `value`: the stages of AlphaGo's training, one by one.
+// `sanban learn rollout`, `policy`, `rl` and `value`: the stages of AlphaGo's training, one by one;
+// and all of them as `sanban train --preset alphago`.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -123,6 +124,8 @@ std::optional<int> run_learn_stage(Arguments arguments) {
     return {};
 }
 
+namespace {
+
 bool wants_alphago(Arguments arguments) {
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string_view word = arguments[i];
@@ -133,7 +136,7 @@ bool wants_alphago(Arguments arguments) {
     return false;
 }
 
-int run_train_alphago(Arguments arguments) {
+int train_alphago(Arguments arguments) {
     CLI::App app(
         "Learns Go as AlphaGo did, stage by stage, from records of games; the networks are "
         "DIR/weights",
@@ -151,6 +154,12 @@ int run_train_alphago(Arguments arguments) {
     const StopOnSignal signals;
     alphago::train_alphago(input, network, settings, signals.token());
     return 0;
+}
+
+}  // namespace
+
+int run_train_by_preset(Arguments arguments) {
+    return wants_alphago(arguments) ? train_alphago(arguments) : run_train(arguments);
 }
 
 }  // namespace protocols
