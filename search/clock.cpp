@@ -35,15 +35,16 @@ Allotment of_main_time(const TimeLeft& left, int moves_left, Milliseconds lag) {
 
 Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
-    const auto now = left.period - lag;
     if (moves == 1) {
+        // Here a moment too much loses the game: more is kept back than was ever seen to be needed.
+        const auto now = left.period - std::max(lag, std::min(left.period / 20, Milliseconds(300)));
         // A spare period may go on a hard move; the last may not.
         const auto spare =
             left.periods > 1 && left.control.period_moves == 1 ? left.control.period : none;
         return within(now, now + spare, now + spare);
     }
     const auto soft = left.period / moves - lag;
-    return within(soft, 3 * soft, now - (moves - 1) * std::max(soft / 2, lag));
+    return within(soft, 3 * soft, left.period - lag - (moves - 1) * std::max(soft / 2, lag));
 }
 
 }  // namespace
@@ -102,9 +103,14 @@ std::optional<Allotment> allot(const TimeLeft& left, int moves_left, Millisecond
 
 void LagMeter::record(Milliseconds late) {
     const double now = static_cast<double>(std::max(late, none).count());
-    reserve_ = std::max(now, reserve_ * 0.95);
+    greatest_ = std::max(now, greatest_ * 0.95);
 }
 
-Milliseconds LagMeter::reserve() const { return Milliseconds(static_cast<std::int64_t>(reserve_)); }
+Milliseconds LagMeter::reserve() const {
+    // Of the wakings between the two clocks (ours to think, to end, to answer; the manager's to
+    // read) the meter sees one.
+    constexpr double wakings = 4;
+    return Milliseconds(static_cast<std::int64_t>(wakings * greatest_));
+}
 
 }  // namespace search

@@ -51,14 +51,15 @@ struct Allotment {
 std::optional<Allotment> allot(const TimeLeft& left, int moves_left, Milliseconds lag);
 
 // How late thinks end after the moment they were asked to, on this machine as loaded as it is:
-// the greatest delay seen, old ones fading by a twentieth a think.
+// the greatest delay seen, old ones fading by a twentieth a think; and what is to be kept back for
+// such delays.
 class LagMeter {
    public:
     void record(Milliseconds late);
     Milliseconds reserve() const;
 
    private:
-    double reserve_ = 0;  // ms
+    double greatest_ = 0;  // ms
 };
 
 }  // namespace search

@@ -204,14 +204,20 @@ TEST(Allot, NeverExceedsTheLongestMove) {
     }
 }
 
+TEST(Allot, KeepsATwentiethOfByoYomiBack) {
+    const auto time = allot(TimeLeft::start_of(overtime(0s, 1s, 1, 1)), 30, 20ms);
+    EXPECT_EQ(time->hard, 950ms);
+    EXPECT_EQ(allot(TimeLeft::start_of(overtime(0s, 1s, 1, 1)), 30, 80ms)->hard, 920ms);
+}
+
 TEST(LagMeter, RemembersTheGreatestAndForgetsSlowly) {
     LagMeter meter;
     EXPECT_EQ(meter.reserve(), 0ms);
     meter.record(40ms);
     meter.record(2ms);
-    EXPECT_GE(meter.reserve(), 37ms);
+    EXPECT_GE(meter.reserve(), 4 * 37ms);
     for (int i = 0; i < 200; ++i) meter.record(2ms);
-    EXPECT_LE(meter.reserve(), 3ms);
+    EXPECT_LE(meter.reserve(), 4 * 3ms);
 }
 
 }  // namespace
