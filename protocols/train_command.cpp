@@ -25,7 +25,7 @@ using selfplay::training::Bounds;
 using selfplay::training::Settings;
 
 struct Input {
-    std::filesystem::path folder;
+    std::filesystem::path folder, from;
     std::optional<std::string> game, preset;
     Bounds bounds;
     int threads = default_threads(), nice = 0;
@@ -39,6 +39,8 @@ void add_run_flags(CLI::App& app, Input& input) {
     app.add_option("--preset", input.preset,
                    "what all settings begin as: laptop (unless said otherwise), alphazero, "
                    "alphagozero");
+    app.add_option("--from", input.from,
+                   "network that a new run begins with instead of random weights");
     app.add_option("--minutes", input.bounds.minutes, "end after so many of them");
     app.add_option("--games", input.bounds.games, "end when so many have been played in all");
     app.add_option("--threads", input.threads, "processors to use")
@@ -66,7 +68,7 @@ template <engine::Encoded G>
 void train(const Input& input, const Settings& settings) {
     const StopOnSignal signals;
     selfplay::training::Run<G> run(
-        input.folder, settings, input.threads, input.bounds,
+        input.folder, settings, input.from, input.threads, input.bounds,
         [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
     run.run(signals.token());
 }

@@ -23,8 +23,8 @@ struct ActorSettings {
     Exploration exploration = Exploration::gumbel;
     // A full search teaches the policy; the rest of the turns get a fast one that does not
     // (playout-cap randomisation, Wu 2019).
-    int simulations = 32, fast_simulations = 8;
-    float full_share = 0.25f;  // of turns
+    int simulations = 16, fast_simulations = 16;
+    float full_share = 1;  // of turns
     int candidates = 16;
     float gumbel_scale = 1;
     float noise_share = 0.25f, noise_alpha = 0;

@@ -25,7 +25,7 @@ struct LearnSettings {
     float momentum = 0.9f;
     float weight_decay = 1e-4f;
     float most_norm = 0;
-    float average = 0.995f;
+    float average = 0.99f;
     float ownership_weight = 0.15f, score_weight = 0.0015f, value_weight = 1;
     nn::Precision precision = nn::Precision::bf16;
 

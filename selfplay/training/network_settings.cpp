@@ -1,10 +1,29 @@
 #include "selfplay/training/network_settings.h"
 
+#include <algorithm>
 #include <string>
 
+#include "engine/base/error.h"
 #include "nn/builders.h"
+#include "nn/load.h"
 
 namespace selfplay::training {
+
+namespace {
+
+bool same_shapes(const nn::Node& a, const nn::Node& b) {
+    return a.operation == b.operation && a.inputs == b.inputs && a.activation == b.activation &&
+           std::equal(a.weights.begin(), a.weights.end(), b.weights.begin(), b.weights.end(),
+                      [](const auto& one, const auto& other) { return one.shape == other.shape; });
+}
+
+std::string description(const nn::Graph& graph) {
+    return fmt::format("{}, {} blocks, {} channels, {}, {} parameters", graph.facts.game,
+                       graph.facts.blocks, graph.facts.channels, graph.facts.encoding,
+                       nn::parameter_count(graph));
+}
+
+}  // namespace
 
 nn::Graph new_network(const NetworkSettings& settings, std::string_view game,
                       const engine::EncodingShape& shape, engine::Random& random) {
@@ -32,6 +51,19 @@ nn::Graph new_network(const NetworkSettings& settings, std::string_view game,
     tower.score = go && settings.score;
     tower.moves_left = settings.moves_left;
     return nn::build_tower(tower, random);
+}
+
+nn::Graph network_like(const nn::Graph& fresh, const std::filesystem::path& file) {
+    auto graph = nn::load(file);
+    const bool same = graph.facts.game == fresh.facts.game &&
+                      graph.facts.encoding == fresh.facts.encoding &&
+                      graph.outputs == fresh.outputs &&
+                      std::equal(graph.nodes.begin(), graph.nodes.end(), fresh.nodes.begin(),
+                                 fresh.nodes.end(), same_shapes);
+    if (!same)
+        engine::fail("{}: built otherwise than the settings say: {} and not {}", file.string(),
+                     description(graph), description(fresh));
+    return graph;
 }
 
 }  // namespace selfplay::training

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string_view>
 #include <tuple>
 
@@ -70,5 +71,9 @@ nn::Graph new_network(const NetworkSettings& settings, const G& start, std::uint
     const auto shape = engine::find_encoding<G>(settings.encoding_name()).shape(start);
     return new_network(settings, G::name, shape, random);
 }
+
+// The network of a file, to learn on from where it stands. `fresh` is what the run would begin with
+// otherwise. Fails with engine::Error when the file's is not built as that.
+nn::Graph network_like(const nn::Graph& fresh, const std::filesystem::path& file);
 
 }  // namespace selfplay::training

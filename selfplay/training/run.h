@@ -39,10 +39,11 @@ namespace selfplay::training {
 template <engine::Encoded G>
 class Run {
    public:
-    // Makes the folder or goes on from it. Fails with engine::Error when it is not a run of these
-    // settings, or is in use.
-    Run(const std::filesystem::path& folder, const Settings& settings, int threads,
-        const Bounds& bounds, Say say);
+    // Makes the folder or goes on from it; a new one begins with the weights of the file `from`,
+    // or, where that is empty, with random ones. Fails with engine::Error when it is not a run of
+    // these settings, or is in use.
+    Run(const std::filesystem::path& folder, const Settings& settings,
+        const std::filesystem::path& from, int threads, const Bounds& bounds, Say say);
 
     // Until a bound is reached or a stop is requested. Fails with engine::Error when the disk takes
     // no more or learning cannot go on; what was played before is safe.
@@ -53,9 +54,10 @@ class Run {
     using Source = typename Crew<G>::Source;
 
     G first_game() const { return largest_position<G>(settings_.actors); }
-    nn::Graph fresh_network() const {
-        return new_network(settings_.network, first_game(),
-                           static_cast<std::uint64_t>(settings_.run.seed));
+    nn::Graph first_network(const std::filesystem::path& from) const {
+        auto fresh = new_network(settings_.network, first_game(),
+                                 static_cast<std::uint64_t>(settings_.run.seed));
+        return from.empty() ? fresh : network_like(fresh, from);
     }
     void fill_replay();
 
@@ -121,8 +123,8 @@ class Run {
 };
 
 template <engine::Encoded G>
-Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int threads,
-            const Bounds& bounds, Say say)
+Run<G>::Run(const std::filesystem::path& folder, const Settings& settings,
+            const std::filesystem::path& from, int threads, const Bounds& bounds, Say say)
     : folder_(folder),
       settings_(settings),
       bounds_(bounds),
@@ -130,7 +132,7 @@ Run<G>::Run(const std::filesystem::path& folder, const Settings& settings, int t
       archive_(folder_.games()),
       journal_(folder_.metrics()),
       replay_(settings.replay, settings.network.encoding_name(), threads),
-      student_(fresh_network(), settings.learn, threads, folder_, say_),
+      student_(first_network(from), settings.learn, threads, folder_, say_),
       random_(engine::mixed(static_cast<std::uint64_t>(settings.run.seed),
                             static_cast<std::uint64_t>(student_.steps()))),
       progress_(bounds),

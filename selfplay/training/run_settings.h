@@ -20,7 +20,7 @@ struct RunSettings {
     float learner_share = 0.4f;
     int first_games = 100;
     int refresh = 50;
-    int last_simulations = 0, growth_games = 0;
+    int last_simulations = 64, growth_games = 40'000;
     nn::Precision precision = nn::Precision::int16;
     int keep_mib = 4096;
 

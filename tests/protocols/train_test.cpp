@@ -118,6 +118,20 @@ TEST_F(TrainTest, LearnsAndGoesOn) {
     EXPECT_GE(journal.entries().back().resign_threshold, -1);
 }
 
+// On another machine only the weights are left of a run.
+TEST_F(TrainTest, ANewRunLearnsOnFromAFile) {
+    ASSERT_EQ(run(with({"--games", "40"})), 0) << told();
+    const auto file = folder.parent_path() / "carried.safetensors";
+    fs::rename(folder / "latest.safetensors", file);
+    const auto steps = nn::load(file).facts.steps;
+    fs::remove_all(folder);
+    EXPECT_NE(run(with({"--games", "4", "--from", file.string(), "--moves-left", "true"})), 0);
+    EXPECT_NE(told().find("built otherwise"), std::string::npos);
+    fs::remove_all(folder);
+    ASSERT_EQ(run(with({"--games", "40", "--from", file.string()})), 0) << told();
+    EXPECT_GT(nn::load(folder / "latest.safetensors").facts.steps, steps);
+}
+
 TEST_F(TrainTest, AStopEndsItCleanly) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const auto child = start(small());

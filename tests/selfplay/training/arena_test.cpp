@@ -59,6 +59,21 @@ TEST_F(Arena, TheGatePlaysAllItsGamesAndJudgesByTheirScore) {
     EXPECT_EQ(verdict.passed, verdict.tally.score() > 0.55);
 }
 
+// One network before and after six minutes of `train --size 5 --blocks 2 --channels 12 --komi 0.5`.
+TEST_F(Arena, TheGateLetsTheBetterNetworkPassAndNotTheWorse) {
+    const auto folder =
+        std::filesystem::path(SANBAN_SOURCE_DIR) / "tests/selfplay/training/networks";
+    const auto untaught = folder / "go5_untaught.safetensors";
+    const auto taught = folder / "go5_taught.safetensors";
+    set_setting(settings, "gate-games", "40");
+    const auto better = judge(settings, untaught, taught, 2, {});
+    EXPECT_TRUE(better.passed);
+    EXPECT_GT(better.tally.score(), 0.9);
+    EXPECT_FALSE(judge(settings, taught, untaught, 2, {}).passed);
+    // At the paper's 55 %, what is no better does not pass by playing well.
+    EXPECT_LT(judge(settings, taught, taught, 2, {}).tally.score(), 0.8);
+}
+
 TEST_F(Arena, AGateThatIsInterruptedLetsNothingPass) {
     std::stop_source stop;
     stop.request_stop();

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/files.h"
+#include "engine/games.h"
 #include "tests/selfplay/training/play.h"
 #include "tests/temporary_folder.h"
 
