@@ -6,6 +6,7 @@
 
 #include "engine/base/files.h"
 #include "engine/chess/chess.h"
+#include "engine/games.h"
 #include "engine/go/go.h"
 #include "tests/search/fake_network.h"
 #include "tests/temporary_folder.h"

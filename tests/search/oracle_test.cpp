@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/games.h"
 #include "search/load_network.h"
 
 namespace {

@@ -2,6 +2,7 @@
 // start of the program does it, against what the networks say in fp32.
 #include <gtest/gtest.h>
 
+#include "engine/games.h"
 #include "nn/backend.h"
 #include "search/load_network.h"
 #include "tests/search/oracle.h"
