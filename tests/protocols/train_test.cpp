@@ -134,8 +134,11 @@ TEST_F(TrainTest, ANewRunLearnsOnFromAFile) {
 
 TEST_F(TrainTest, AStopEndsItCleanly) {
     for (const int signal : {SIGINT, SIGTERM}) {
+        fs::remove_all(folder);
         const auto child = start(small());
-        std::this_thread::sleep_for(700ms);
+        for (int i = 0; i < 600 && !fs::exists(folder / "latest.safetensors"); ++i)
+            std::this_thread::sleep_for(50ms);
+        std::this_thread::sleep_for(300ms);
         ::kill(child, signal);
         EXPECT_EQ(wait_for(child), 0) << told();
     }
