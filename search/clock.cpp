@@ -107,10 +107,11 @@ void LagMeter::record(Milliseconds late) {
 }
 
 Milliseconds LagMeter::reserve() const {
-    // Of the wakings between the two clocks (ours to think, to end, to answer; the manager's to
-    // read) the meter sees one.
-    constexpr double wakings = 4;
-    return Milliseconds(static_cast<std::int64_t>(wakings * greatest_));
+    return reserve_for(Milliseconds(static_cast<std::int64_t>(greatest_)));
 }
+
+// Of the wakings between the two clocks (ours to think, to end, to answer; the manager's to read)
+// we see one.
+Milliseconds LagMeter::reserve_for(Milliseconds late) { return 4 * late; }
 
 }  // namespace search

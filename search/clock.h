@@ -57,6 +57,8 @@ class LagMeter {
    public:
     void record(Milliseconds late);
     Milliseconds reserve() const;
+    // What to keep back where one waking was so late.
+    static Milliseconds reserve_for(Milliseconds late);
 
    private:
     double greatest_ = 0;  // ms

@@ -120,6 +120,7 @@ class Searcher {
     void work(Worker<G>& worker);
     void conduct(const Report& report, const Report& done);
     TimePoint next_event(TimePoint next_report) const;
+    std::optional<Milliseconds> last_moment() const;
     bool over();
     void add_owners(Analysis& picture) const;
     static Milliseconds since(TimePoint start) {
@@ -149,6 +150,7 @@ class Searcher {
     Limits limits_;
     std::optional<Schedule> schedule_;  // once the limits have taken effect
     TimePoint effective_{};
+    Milliseconds overslept_{0};  // by the conductor, at worst
     std::optional<float> previous_value_;
     std::size_t working_ = 0;
     bool interrupted_ = false;

@@ -96,6 +96,7 @@ void Searcher<G>::meet() {
 template <engine::Game G>
 void Searcher<G>::take_effect(const Limits& limits) {
     effective_ = Clock::now();
+    overslept_ /= 2;
     schedule_.emplace(limits, params_, moves_to_come(position()), lag());
     if (limits_.simulations) team_->limit = std::max<std::uint64_t>(*limits_.simulations, 1);
 }
@@ -164,7 +165,9 @@ void Searcher<G>::conduct(const Report& report, const Report& done) {
     const auto every = limits_.report_every;
     TimePoint next_report = every ? Clock::now() + *every : TimePoint::max();
     while (!over()) {
-        changed_.wait_until(lock, next_event(next_report));
+        const auto planned = next_event(next_report);
+        if (changed_.wait_until(lock, planned) == std::cv_status::timeout)
+            overslept_ = std::max(overslept_, since(planned));
         if (Clock::now() < next_report || over()) continue;
         next_report = Clock::now() + *every;
         lock.unlock();
@@ -227,10 +230,19 @@ template <engine::Game G>
 TimePoint Searcher<G>::next_event(TimePoint next_report) const {
     constexpr Milliseconds step{10}, long_time{1000000};
     const auto now = Clock::now();
-    const bool timed = schedule_ && schedule_->hard();
-    const auto check =
-        timed ? std::min(effective_ + *schedule_->hard(), now + step) : now + long_time;
+    const auto last = last_moment();
+    const auto check = last ? std::min(effective_ + *last, now + step) : now + long_time;
     return std::min(next_report, check);
+}
+
+// With mutex_ held: when to end at the latest. On a machine so busy that the conductor is woken
+// late, earlier than the schedule says if the clock would not bear it.
+template <engine::Game G>
+std::optional<Milliseconds> Searcher<G>::last_moment() const {
+    if (!schedule_ || !schedule_->hard()) return {};
+    if (!limits_.clock || limits_.clock->control.unlimited) return schedule_->hard();
+    const auto borne = limits_.clock->longest_move() - LagMeter::reserve_for(overslept_);
+    return std::min(*schedule_->hard(), std::max(borne, Milliseconds(1)));
 }
 
 // With mutex_ held.
@@ -240,6 +252,7 @@ bool Searcher<G>::over() {
     // All may have left because the root has nothing to search; an endless think goes on waiting.
     if (!schedule_) return false;
     if (working_ == 0 && !limits_.endless()) return true;
+    if (const auto last = last_moment(); last && since(effective_) >= *last) return true;
     std::uint64_t simulations = 0;
     for (const auto& worker : workers_) simulations += worker->simulations();
     const std::lock_guard picture(picture_mutex_);

@@ -218,6 +218,7 @@ TEST(LagMeter, RemembersTheGreatestAndForgetsSlowly) {
     EXPECT_GE(meter.reserve(), 4 * 37ms);
     for (int i = 0; i < 200; ++i) meter.record(2ms);
     EXPECT_LE(meter.reserve(), 4 * 3ms);
+    EXPECT_EQ(LagMeter::reserve_for(10ms), 40ms);
 }
 
 }  // namespace
