@@ -25,8 +25,6 @@ int run_selfplay(Arguments arguments);
 int run_show(Arguments arguments);
 int run_solve(Arguments arguments);
 int run_train(Arguments arguments);
-// Likewise, or AlphaGo's stages where the flags say `--preset alphago`.
-int run_train_by_preset(Arguments arguments);
 int run_uci(Arguments arguments);
 int run_usi(Arguments arguments);
 

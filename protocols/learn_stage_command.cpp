@@ -158,8 +158,9 @@ int train_alphago(Arguments arguments) {
 
 }  // namespace
 
-int run_train_by_preset(Arguments arguments) {
-    return wants_alphago(arguments) ? train_alphago(arguments) : run_train(arguments);
+std::optional<int> run_alphago_training(Arguments arguments) {
+    if (!wants_alphago(arguments)) return {};
+    return train_alphago(arguments);
 }
 
 }  // namespace protocols

@@ -25,7 +25,7 @@ constexpr Subcommand subcommands[] = {
     {"selfplay", "games of a network against itself", protocols::run_selfplay},
     {"match", "play engines against each other", protocols::run_match},
     {"learn", "make weights from recorded games", protocols::run_learn},
-    {"train", "make a network of a game from nothing", protocols::run_train_by_preset},
+    {"train", "make a network of a game from nothing", protocols::run_train},
 };
 
 void describe(std::ostream& out) {

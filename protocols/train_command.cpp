@@ -13,6 +13,7 @@
 #include "engine/games.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "protocols/learn_stage.h"
 #include "protocols/setting_flags.h"
 #include "protocols/stop_on_signal.h"
 #include "selfplay/training/run.h"
@@ -38,7 +39,7 @@ void add_run_flags(CLI::App& app, Input& input) {
         ->required();
     app.add_option("--preset", input.preset,
                    "what all settings begin as: laptop (unless said otherwise), alphazero, "
-                   "alphagozero");
+                   "alphagozero; alphago has flags of its own: --preset alphago --help");
     app.add_option("--from", input.from,
                    "network that a new run begins with instead of random weights");
     app.add_option("--minutes", input.bounds.minutes, "end after so many of them");
@@ -76,6 +77,7 @@ void train(const Input& input, const Settings& settings) {
 }  // namespace
 
 int run_train(Arguments arguments) {
+    if (const auto status = run_alphago_training(arguments)) return *status;
     CLI::App app(
         "Learns a game from random weights and its rules, until stopped; the newest "
         "network is DIR/latest.safetensors",

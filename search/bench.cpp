@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <ctime>
 #include <memory>
 #include <span>
 
+#include "engine/base/measure.h"
 #include "engine/games.h"
 #include "search/searcher.h"
 
@@ -100,12 +100,6 @@ class FreeSource final : public EvaluatorSource<G> {
     int policy_index(const G&, Move) const override { return 0; }
 };
 
-double processor_seconds() {
-    timespec used{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-}
-
 // Simulations a second of all threads together under PUCT with an evaluator that costs nothing, by
 // the time that the processor gave them.
 template <engine::Game G>
@@ -122,9 +116,9 @@ double puct_per_second(const G& game, int threads, double seconds) {
     double took = 0, simulations = 0;
     constexpr int most_thinks = 10;
     for (int i = 0; i < most_thinks && took < seconds / 2; ++i) {
-        const double before = processor_seconds();
+        const double before = engine::process_seconds();
         simulations += static_cast<double>(searcher.think(limits).simulations);
-        took += (processor_seconds() - before) / threads;
+        took += (engine::process_seconds() - before) / threads;
     }
     return simulations / took;
 }

@@ -138,12 +138,6 @@ class Writer {
     std::vector<int> in_atari_, in_two_;
 };
 
-template <int planes>
-engine::EncodingShape shape(const Go& game) {
-    const int size = game.size();
-    return {planes, size, size, 0, size * size + 1, 8};
-}
-
 template <bool with_colour>
 void write(const Go& game, std::span<float> planes, std::span<float>) {
     Writer(game, planes).run(with_colour);
@@ -152,11 +146,11 @@ void write(const Go& game, std::span<float> planes, std::span<float>) {
 }  // namespace
 
 engine::Encoding<Go> alphago_policy() {
-    return {"alphago48", shape<alphago::policy_planes>, write<false>, point_index, nullptr};
+    return {"alphago48", point_shape<alphago::policy_planes>, write<false>, point_index, nullptr};
 }
 
 engine::Encoding<Go> alphago_value() {
-    return {"alphago49", shape<alphago::value_planes>, write<true>, point_index, nullptr};
+    return {"alphago49", point_shape<alphago::value_planes>, write<true>, point_index, nullptr};
 }
 
 }  // namespace go

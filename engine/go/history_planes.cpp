@@ -8,12 +8,6 @@ namespace {
 
 constexpr int stone_planes = 2 * Go::remembered;
 
-template <int planes>
-engine::EncodingShape shape(const Go& game) {
-    const int size = game.size();
-    return {planes, size, size, 0, size * size + 1, 8};
-}
-
 // The mover's stones now and 7 moves back, then the opponent's.
 void write_stones(const Go& game, std::span<float> planes) {
     const auto size = static_cast<std::size_t>(game.size());
@@ -53,11 +47,11 @@ int point_index(const Go& game, Move move) {
 }
 
 engine::Encoding<Go> alphazero() {
-    return {"alphazero", shape<stone_planes + 1>, write_alphazero, point_index, nullptr};
+    return {"alphazero", point_shape<stone_planes + 1>, write_alphazero, point_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero() {
-    return {"leela-zero-18", shape<stone_planes + 2>, write_leela_zero, point_index, nullptr};
+    return {"leela-zero-18", point_shape<stone_planes + 2>, write_leela_zero, point_index, nullptr};
 }
 
 engine::Encoding<Go> leela_zero_black() {

@@ -10,6 +10,12 @@ namespace go {
 
 // The place of a move in such a policy.
 int point_index(const Go& game, Move move);
+// Of an encoding with so many planes, nothing beside them, and such a policy.
+template <int planes>
+engine::EncodingShape point_shape(const Go& game) {
+    const int size = game.size();
+    return {planes, size, size, 0, size * size + 1, 8};
+}
 
 engine::Encoding<Go> alphazero();
 engine::Encoding<Go> leela_zero();

@@ -1,6 +1,6 @@
 // AlphaGo's rollout policy at play: a linear softmax over the features of move_features.h, kept up
 // to date as stones come and go, so that a move is drawn without looking at the whole board. One a
-// rollout. For pattern_rollouts.cpp.
+// rollout.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "nn/training/bench.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <string>
 #include <thread>
@@ -68,13 +66,6 @@ struct Positions {
     }
 };
 
-// Of all threads together.
-double process_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 struct Speed {
     double samples = 0;     // a second on the wall
     double peak_share = 0;  // of multiply-adds, by processor time; 0 where there is no peak
@@ -99,7 +90,7 @@ Speed speed_of(const TowerDescription& about, Precision precision, double second
     const double peak = engine::calls_per_second(
         seconds / 4, [&] { run_multiply_adds(precision, 100000); }, 1);
     const double peak_operations = peak * run_multiply_adds(precision, 100000);
-    double used = process_seconds();
+    double used = engine::process_seconds();
     int steps = 0;
     const double rate = batch * engine::calls_per_second(
                                     seconds,
@@ -108,7 +99,7 @@ Speed speed_of(const TowerDescription& about, Precision precision, double second
                                         ++steps;
                                     },
                                     1, engine::wall_seconds);
-    used = process_seconds() - used;
+    used = engine::process_seconds() - used;
     const double done = operations(graph, about.facts.board) * batch * steps;
     return {rate, peak_operations > 0 ? 100 * done / used / peak_operations : 0};
 }

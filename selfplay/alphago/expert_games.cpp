@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/go/sgf.h"
+#include "selfplay/records/files_behind.h"
 
 namespace selfplay::alphago {
 
@@ -66,7 +67,10 @@ class Reading {
         while (!enough() && read_next(reader)) {
         }
     }
-    bool enough() const { return games_.counts.kept >= selection_.most_games; }
+    bool enough() const {
+        return selection_.most_games > 0 &&
+               games_.counts.kept >= static_cast<std::uint64_t>(selection_.most_games);
+    }
     ExpertGames take() { return std::move(games_); }
 
    private:
@@ -99,19 +103,8 @@ class Reading {
 }  // namespace
 
 std::vector<fs::path> sgf_files(std::span<const fs::path> paths) {
-    std::vector<fs::path> files;
-    for (const auto& path : paths) {
-        if (!fs::exists(path)) engine::fail("{}: there is no such file or folder", path.string());
-        if (!fs::is_directory(path)) {
-            files.push_back(path);
-            continue;
-        }
-        const auto first = static_cast<std::ptrdiff_t>(files.size());
-        for (const auto& entry : fs::recursive_directory_iterator(path))
-            if (entry.is_regular_file() && is_sgf(entry.path())) files.push_back(entry.path());
-        std::sort(files.begin() + first, files.end());
-    }
-    return files;
+    return records::files_behind<fs::recursive_directory_iterator>(
+        paths, [](const auto& entry) { return entry.is_regular_file() && is_sgf(entry.path()); });
 }
 
 ExpertGames read_expert_games(std::span<const fs::path> paths, const ExpertSelection& selection,

@@ -39,7 +39,7 @@ struct ExpertGames {
 struct ExpertSelection {
     int size = 19;
     int least_moves = 30;
-    std::uint64_t most_games = ~std::uint64_t{0};  // of those kept
+    int most_games = 0;  // of those kept; 0: all
 };
 
 // The .sgf, .sgfs and their .gz files behind the paths, in their order, folders with all that is

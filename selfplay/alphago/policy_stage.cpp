@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/files.h"
 #include "nn/load.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/training/student.h"
@@ -24,9 +23,8 @@ class PolicyStage {
           state_(folder_.state()),
           student_(new_policy(network, static_cast<std::uint64_t>(settings.seed)), learning,
                    input.threads, folder_, input.say),
-          games_(read_expert_games(input.records,
-                                   {network.size, settings.least_moves, most_games(settings)},
-                                   input.say)),
+          games_(read_expert_games(
+              input.records, {network.size, settings.least_moves, settings.games}, input.say)),
           lessons_(games_.lessons),
           held_out_(games_.held_out),
           batches_(network.encoding(), input.threads),
@@ -46,9 +44,6 @@ class PolicyStage {
     }
 
    private:
-    static std::uint64_t most_games(const PolicySettings& settings) {
-        return settings.games == 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(settings.games);
-    }
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
 
     void learn() {
@@ -94,8 +89,7 @@ class PolicyStage {
                                           {"accuracy", learned.policy_accuracy},
                                           {"held_out_loss", held_out.policy_loss},
                                           {"held_out_accuracy", held_out.policy_accuracy}};
-        engine::append_file(input_.folder / "policy.jsonl", line.dump() + '\n');
-        input_.report(line.dump());
+        tell(input_, input_.folder / "policy.jsonl", line.dump());
     }
 
     // Some positions for whoever measures statistics.

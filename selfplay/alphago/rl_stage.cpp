@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
-#include "engine/base/files.h"
 #include "nn/load.h"
 #include "selfplay/alphago/policy_games.h"
 #include "selfplay/training/batch.h"
@@ -117,7 +116,7 @@ class RlStage {
                                           {"games", games.size()},
                                           {"score", score(games)},
                                           {"plies", plies(games)}};
-        tell(line);
+        tell(input_, journal(), line.dump());
     }
 
     static double plies(std::span<const Playing> games) {
@@ -164,7 +163,7 @@ class RlStage {
                                           {"opponent", "first"},
                                           {"games", games.size()},
                                           {"score_against_first", score(games)}};
-        tell(line);
+        tell(input_, journal(), line.dump());
     }
 
     void keep() {
@@ -175,10 +174,7 @@ class RlStage {
         folder_.keep(now);
     }
 
-    void tell(const nlohmann::ordered_json& line) const {
-        engine::append_file(input_.folder / "rl.jsonl", line.dump() + '\n');
-        input_.report(line.dump());
-    }
+    fs::path journal() const { return input_.folder / "rl.jsonl"; }
 
     const StageInput& input_;
     const RlSettings& settings_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/files.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/alphago/linear_learner.h"
 #include "selfplay/training/folder.h"
@@ -20,8 +19,7 @@ class RolloutStage {
           settings_(settings),
           folder_(input.folder),
           games_(read_expert_games(
-              input.records, {settings.size, settings.least_moves, most_games(settings.games)},
-              input.say)),
+              input.records, {settings.size, settings.least_moves, settings.games}, input.say)),
           watch_(input, stop) {
         if (std::filesystem::exists(file())) learner_.restore(file());
     }
@@ -40,9 +38,6 @@ class RolloutStage {
     }
 
    private:
-    static std::uint64_t most_games(int games) {
-        return games == 0 ? ~std::uint64_t{0} : static_cast<std::uint64_t>(games);
-    }
     std::filesystem::path file() const { return input_.folder / "rollout.safetensors"; }
     bool done() const {
         return learner_.steps() >= static_cast<std::uint64_t>(settings_.positions);
@@ -67,8 +62,7 @@ class RolloutStage {
                                           {"rollout_loss", quality[0].loss},
                                           {"tree_accuracy", quality[1].accuracy},
                                           {"tree_loss", quality[1].loss}};
-        engine::append_file(input_.folder / "rollout.jsonl", line.dump() + '\n');
-        input_.report(line.dump());
+        tell(input_, input_.folder / "rollout.jsonl", line.dump());
     }
 
     // All positions of as many games as make up the number.

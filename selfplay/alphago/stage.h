@@ -24,6 +24,9 @@ struct StageInput {
     std::function<void(const std::string&)> say;
 };
 
+// Adds the line to the journal of that name in the folder, and tells it.
+void tell(const StageInput& input, const std::filesystem::path& journal, const std::string& line);
+
 // The time of one call.
 class Watch {
    public:

@@ -177,8 +177,7 @@ class ValueStage {
             {"samples", student_.steps() * learning_.batch},
             {"train_error", error_of(false)},
             {"test_error", error_of(true)}};
-        engine::append_file(folder_.path() / "value.jsonl", line.dump() + '\n');
-        input_.report(line.dump());
+        tell(input_, folder_.path() / "value.jsonl", line.dump());
     }
 
     const StageInput& input_;
