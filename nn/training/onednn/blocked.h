@@ -1,6 +1,6 @@
 // Activations over the board as oneDNN likes them (nChw16c): sample, block of 16 channels, point,
 // channel in its block, the last block filled up with zeros. And the loops over them, compiled once
-// for every processor and once for AVX-512. Used by the oneDNN trainer alone.
+// for every processor, once for AVX2 and once for AVX-512. Used by the oneDNN trainer alone.
 #pragma once
 
 #include <cstddef>

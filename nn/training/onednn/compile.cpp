@@ -1,6 +1,9 @@
 #include "nn/training/onednn/compile.h"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "nn/onednn/library.h"
 
 namespace nn::training {
 
@@ -40,7 +43,7 @@ class Compiler {
         if (node.operation == Operation::input)
             tape_.reserve(n);
         else if (node.operation == Operation::convolution)
-            append_blocked<ConvolutionStep<Number>>(n);
+            append_convolution(n);
         else if (node.operation == Operation::batch_norm && over_board)
             append_norm(n);
         else if (node.operation == Operation::add && over_board)
@@ -49,6 +52,12 @@ class Compiler {
             append_blocked<ReluStep<Number>>(n);
         else
             append_plain(n);
+    }
+
+    void append_convolution(int n) {
+        if constexpr (std::is_same_v<Number, float>)
+            if (!onednn::has_avx512()) return append_blocked<TiledStep>(n);
+        append_blocked<ConvolutionStep<Number>>(n);
     }
 
     template <class Kind>

@@ -3,7 +3,7 @@
 
 namespace nn::training {
 
-extern const Loops<float> avx512_loops;
+extern const Loops<float> avx2_loops, avx512_loops;
 extern const Loops<Bf16> avx512_bf16_loops;
 
 namespace {
@@ -15,7 +15,8 @@ struct Portable;
 template <>
 const Loops<float>& loops<float>() {
     static constexpr auto portable = LoopsBody<Portable, float>::table();
-    return onednn::has_avx512() ? avx512_loops : portable;
+    if (onednn::has_avx512()) return avx512_loops;
+    return onednn::has_avx2() ? avx2_loops : portable;
 }
 
 template <>

@@ -8,6 +8,19 @@ namespace nn::training {
 
 // --- convolution
 
+namespace {
+
+template <class Number>
+void add_bias_gradient(Blocked<Number>& blocked, int n) {
+    const auto extent = blocked.extent(n);
+    std::vector<float> sums(at(extent.blocks() * lanes)), squares(sums.size());
+    blocked.loops.moments(extent, blocked.gradient(n), sums.data(), squares.data());
+    auto bias = blocked.tape.weight_gradient(n, 1);
+    for (Eigen::Index c = 0; c < bias.rows(); ++c) bias(c, 0) += sums[static_cast<std::size_t>(c)];
+}
+
+}  // namespace
+
 template <class Number>
 ConvolutionStep<Number>::ConvolutionStep(Blocked<Number>& blocked, int n)
     : blocked_(blocked),
@@ -39,12 +52,7 @@ void ConvolutionStep<Number>::backward() {
     else
         convolution_.backward_weights(blocked_.value(x_), gradient);
     blocked_.give_gradient(x_, [&](Number* place) { convolution_.backward_data(gradient, place); });
-    if (!biased_) return;
-    const auto extent = blocked_.extent(n_);
-    std::vector<float> sums(at(extent.blocks() * lanes)), squares(sums.size());
-    blocked_.loops.moments(extent, gradient, sums.data(), squares.data());
-    auto bias = blocked_.tape.weight_gradient(n_, 1);
-    for (Eigen::Index c = 0; c < bias.rows(); ++c) bias(c, 0) += sums[static_cast<std::size_t>(c)];
+    if (biased_) add_bias_gradient(blocked_, n_);
 }
 
 template <class Number>
@@ -55,6 +63,30 @@ void ConvolutionStep<Number>::collect() {
     else
         convolution_.collect(kernel);
 }
+
+TiledStep::TiledStep(Blocked<float>& blocked, int n)
+    : blocked_(blocked),
+      n_(n),
+      x_(blocked.tape.input(n, 0)),
+      biased_(blocked.tape.node(n).weights.size() > 1),
+      convolution_(blocked.extent(x_), blocked.extent(n), blocked.tape.node(n).weights[0].shape[2],
+                   blocked.tape.board) {}
+
+void TiledStep::load() {
+    const auto& tape = blocked_.tape;
+    convolution_.load(tape.weight(n_, 0).data(), biased_ ? tape.weight(n_, 1).data() : nullptr);
+}
+
+void TiledStep::forward() { convolution_.forward(blocked_.value(x_), blocked_.value(n_)); }
+
+void TiledStep::backward() {
+    const auto* const gradient = blocked_.gradient(n_);
+    convolution_.backward_weights(blocked_.value(x_), gradient);
+    blocked_.give_gradient(x_, [&](float* place) { convolution_.backward_data(gradient, place); });
+    if (biased_) add_bias_gradient(blocked_, n_);
+}
+
+void TiledStep::collect() { convolution_.collect(blocked_.tape.weight_gradient(n_, 0).data()); }
 
 // --- batch norm; the formulas are in nn/training/batch_norm.cpp
 

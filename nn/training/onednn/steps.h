@@ -6,6 +6,7 @@
 
 #include "nn/training/onednn/field.h"
 #include "nn/training/onednn/paired_gradient.h"
+#include "nn/training/onednn/tiled.h"
 #include "nn/training/operations.h"
 
 namespace nn::training {
@@ -25,6 +26,22 @@ class ConvolutionStep : public Step {
     bool biased_;
     Convolution<Number> convolution_;
     std::optional<PairedGradient> paired_;  // of bf16, in place of the library's
+};
+
+// Likewise in fp32 by our own loops.
+class TiledStep : public Step {
+   public:
+    TiledStep(Blocked<float>& blocked, int n);
+    void load() override;
+    void forward() override;
+    void backward() override;
+    void collect() override;
+
+   private:
+    Blocked<float>& blocked_;
+    int n_, x_;
+    bool biased_;
+    TiledConvolution convolution_;
 };
 
 // A batch norm with the addition of `residual` (unless -1) and the relu that follow: y =
