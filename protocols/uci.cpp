@@ -140,8 +140,21 @@ void Uci::set_option(std::string_view arguments) {
     const auto [name, value] = name_and_value(arguments);
     for (const auto& option : options_) {
         if (lower(option.name) != lower(name)) continue;
-        end_think();
-        return option.set(value);
+        // The GUI still waits for a move: a think with an end gives it now, another one goes on.
+        const auto under_way = last_go_;
+        const bool goes_on = session_->thinking() && (under_way.infinite || under_way.ponder);
+        if (goes_on)
+            end_think();
+        else
+            stop({});
+        try {
+            option.set(value);
+        } catch (const engine::Error&) {
+            if (goes_on) begin(under_way);
+            throw;
+        }
+        if (goes_on) begin(under_way);
+        return;
     }
     engine::fail("there is no option '{}'", name);
 }
@@ -172,12 +185,16 @@ void Uci::position(std::string_view arguments) {
 
 void Uci::go(std::string_view arguments) {
     end_think();
+    begin(parse_go(arguments, dialect_.white_first));
+}
+
+void Uci::begin(const GoCommand& go) {
     try {
         load_network();
     } catch (const engine::Error& error) {
         out_.line(fmt::format("info string error: {}", error.what()));
     }
-    think(parse_go(arguments, dialect_.white_first));
+    think(go);
 }
 
 void Uci::think(const GoCommand& go) {

@@ -82,6 +82,7 @@ class Uci {
     void game_over(std::string_view);
     void ignore(std::string_view) {}
 
+    void begin(const GoCommand& go);
     void think(const GoCommand& go);
     void search(const GoCommand& go);
     void solve(const GoCommand& go);

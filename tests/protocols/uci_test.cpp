@@ -91,6 +91,25 @@ TEST(Uci, NothingBestWhenTheGameIsOver) {
     EXPECT_EQ(shogi.say("position startpos moves 1 4 2 5 3\ngo nodes 10\n"), "bestmove resign\n");
 }
 
+// Whoever waits for a move gets one, whatever is set meanwhile.
+TEST(Uci, AnOptionDuringAThinkLosesNoMove) {
+    Guest guest;
+    for (const auto* const option : {"MultiPV value 2", "Threads value 0", "Hash value 16"}) {
+        guest.text.str("");
+        EXPECT_TRUE(guest.uci.handle("position startpos"));
+        EXPECT_TRUE(guest.uci.handle("go infinite"));
+        EXPECT_TRUE(guest.uci.handle(std::string("setoption name ") + option));
+        EXPECT_FALSE(has(guest.text.str(), "bestmove")) << option;
+        EXPECT_TRUE(guest.uci.handle("stop"));
+        EXPECT_TRUE(last_line(guest.text.str()).starts_with("bestmove")) << guest.text.str();
+
+        guest.text.str("");
+        EXPECT_TRUE(guest.uci.handle("go movetime 100000"));
+        EXPECT_TRUE(guest.uci.handle(std::string("setoption name ") + option));
+        EXPECT_TRUE(has(guest.text.str(), "bestmove")) << guest.text.str();
+    }
+}
+
 TEST(Uci, AnEndlessThinkWaitsForStop) {
     Guest guest;
     guest.text.str("");
