@@ -37,7 +37,9 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
     if (moves == 1) {
         // Here a moment too much loses the game: more is kept back than was ever seen to be needed.
-        const auto now = left.period - std::max(lag, std::min(left.period / 20, Milliseconds(300)));
+        const Milliseconds least = std::min(left.period / 10, Milliseconds(100));
+        const auto now =
+            left.period - std::max(lag, std::clamp(left.period / 20, least, Milliseconds(300)));
         // A spare period may go on a hard move; the last may not.
         const auto spare =
             left.periods > 1 && left.control.period_moves == 1 ? left.control.period : none;

@@ -204,10 +204,14 @@ TEST(Allot, NeverExceedsTheLongestMove) {
     }
 }
 
-TEST(Allot, KeepsATwentiethOfByoYomiBack) {
-    const auto time = allot(TimeLeft::start_of(overtime(0s, 1s, 1, 1)), 30, 20ms);
-    EXPECT_EQ(time->hard, 950ms);
-    EXPECT_EQ(allot(TimeLeft::start_of(overtime(0s, 1s, 1, 1)), 30, 80ms)->hard, 920ms);
+TEST(Allot, KeepsPartOfByoYomiBack) {
+    const auto hard = [](Milliseconds period, Milliseconds lag) {
+        return allot(TimeLeft::start_of(overtime(0s, period, 1, 1)), 30, lag)->hard;
+    };
+    EXPECT_EQ(hard(1s, 20ms), 900ms);
+    EXPECT_EQ(hard(1s, 120ms), 880ms);
+    EXPECT_EQ(hard(200ms, 5ms), 180ms);
+    EXPECT_EQ(hard(10s, 20ms), 9700ms);
 }
 
 TEST(LagMeter, RemembersTheGreatestAndForgetsSlowly) {
