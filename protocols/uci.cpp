@@ -225,6 +225,10 @@ void Uci::search(const GoCommand& go) {
         lag_.shown(*limits.clock);
         limits.clock = lag_.without_lag(*limits.clock);
     }
+    if (limits.time) {
+        const search::Milliseconds overhead(session_->params().lag_ms);
+        limits.time = search::move_within(*limits.time, overhead);
+    }
     limits.report_every = look_interval;
     reported_depth_ = 0;
     reported_at_ = search::Milliseconds(0);

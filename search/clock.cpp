@@ -36,10 +36,7 @@ Allotment of_main_time(const TimeLeft& left, int moves_left, Milliseconds lag) {
 Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
     if (moves == 1) {
-        // Here a moment too much loses the game: more is kept back than was ever seen to be needed.
-        const Milliseconds least = std::min(left.period / 10, Milliseconds(100));
-        const auto now =
-            left.period - std::max(lag, std::clamp(left.period / 20, least, Milliseconds(300)));
+        const auto now = move_within(left.period, lag);
         // A spare period may go on a hard move; the last may not.
         const auto spare =
             left.periods > 1 && left.control.period_moves == 1 ? left.control.period : none;
@@ -50,6 +47,12 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }
 
 }  // namespace
+
+Milliseconds move_within(Milliseconds period, Milliseconds lag) {
+    const Milliseconds least = std::min(period / 10, Milliseconds(100));
+    const auto reserve = std::max(lag, std::clamp(period / 20, least, Milliseconds(300)));
+    return std::max(period - std::min(reserve, period / 2), Milliseconds(1));
+}
 
 TimeLeft TimeLeft::start_of(const TimeControl& control) {
     TimeLeft left;

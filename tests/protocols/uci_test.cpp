@@ -110,6 +110,17 @@ TEST(Uci, AnOptionDuringAThinkLosesNoMove) {
     }
 }
 
+TEST(Uci, AMoveTimeHoldsTheOverhead) {
+    Guest guest;
+    const auto begun = std::chrono::steady_clock::now();
+    const auto answer =
+        guest.say("setoption name Move Overhead value 500\nposition startpos\ngo movetime 1000\n");
+    const auto took = std::chrono::steady_clock::now() - begun;
+    EXPECT_TRUE(last_line(answer).starts_with("bestmove")) << answer;
+    EXPECT_GE(took, std::chrono::milliseconds(400));
+    EXPECT_LT(took, std::chrono::milliseconds(1000));
+}
+
 TEST(Uci, AnEndlessThinkWaitsForStop) {
     Guest guest;
     guest.text.str("");
