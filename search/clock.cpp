@@ -49,9 +49,9 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }  // namespace
 
 Milliseconds move_within(Milliseconds period, Milliseconds lag) {
-    const Milliseconds least = std::min(period / 10, Milliseconds(100));
-    const auto reserve = std::max(lag, std::clamp(period / 20, least, Milliseconds(300)));
-    return std::max(period - std::min(reserve, period / 2), Milliseconds(1));
+    const Milliseconds fewest = std::min(period / 10, Milliseconds(100));
+    const auto reserve = std::max(lag, std::clamp(period / 20, fewest, Milliseconds(300)));
+    return std::max(period - std::min(reserve, period / 2), least);
 }
 
 TimeLeft TimeLeft::start_of(const TimeControl& control) {

@@ -106,8 +106,8 @@ TEST_F(KataGo, SaysTheLargeBoardAsKataGoDoes) {
 // What it says in so many digits does not depend on what the search runs, unless that was asked.
 TEST_F(KataGo, ACoarsePrecisionShowsOnlyWhereItWasAskedFor) {
     const auto exact = guest.ask("kata-raw-nn 0");
-    ASSERT_EQ(guest.say("kata-set-param Precision int8"), "=");
-    EXPECT_EQ(guest.ask("kata-get-param Precision"), "int8");
+    ASSERT_EQ(guest.say("kata-set-param Precision int16"), "=");
+    EXPECT_EQ(guest.ask("kata-get-param Precision"), "int16");
     const auto coarse = guest.ask("kata-raw-nn 0");
     EXPECT_NE(coarse, exact);
     EXPECT_NEAR(number_of(coarse, "whiteWin"), number_of(exact, "whiteWin"), 0.05);
