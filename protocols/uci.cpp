@@ -101,7 +101,7 @@ bool Uci::handle(std::string_view line) {
             if (command.name == name) return (this->*command.run)(arguments), true;
         out_.line(fmt::format("info string unknown command {}", name.substr(0, 100)));
     } catch (const engine::Error& error) {
-        out_.line(fmt::format("info string error: {}", error.what()));
+        tell(error);
     }
     return true;
 }
@@ -115,12 +115,7 @@ void Uci::hello(std::string_view) {
 }
 
 void Uci::is_ready(std::string_view) {
-    try {
-        load_network();
-    } catch (const engine::Error& error) {
-        // The GUI waits for its answer whatever happens.
-        out_.line(fmt::format("info string error: {}", error.what()));
-    }
+    load_network();
     out_.line("readyok");
 }
 
@@ -130,10 +125,19 @@ void Uci::set_network(const std::string& file, search::PrecisionChoice precision
     network_due_ = true;
 }
 
+// The GUI waits for its answer whatever happens.
 void Uci::load_network() {
     if (!std::exchange(network_due_, false)) return;
     end_think();
-    session_->load_network(weights_, precision_);
+    try {
+        session_->load_network(weights_, precision_);
+    } catch (const engine::Error& error) {
+        tell(error);
+    }
+}
+
+void Uci::tell(const engine::Error& error) {
+    out_.line(fmt::format("info string error: {}", error.what()));
 }
 
 void Uci::set_option(std::string_view arguments) {
@@ -149,9 +153,8 @@ void Uci::set_option(std::string_view arguments) {
             stop({});
         try {
             option.set(value);
-        } catch (const engine::Error&) {
-            if (goes_on) begin(under_way);
-            throw;
+        } catch (const engine::Error& error) {
+            tell(error);
         }
         if (goes_on) begin(under_way);
         return;
@@ -189,11 +192,7 @@ void Uci::go(std::string_view arguments) {
 }
 
 void Uci::begin(const GoCommand& go) {
-    try {
-        load_network();
-    } catch (const engine::Error& error) {
-        out_.line(fmt::format("info string error: {}", error.what()));
-    }
+    load_network();
     think(go);
 }
 

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "protocols/lines.h"
 #include "protocols/mate_think.h"
 #include "protocols/session.h"
@@ -94,6 +95,7 @@ class Uci {
     void finish(const search::Analysis& picture);
     void end_think();
     void load_network();
+    void tell(const engine::Error& error);
     std::string info(const search::Analysis& picture, std::size_t rank) const;
     std::string score(const search::MoveAnalysis& move) const;
     std::string wdl(const search::Analysis& picture, const search::MoveAnalysis& move) const;

@@ -58,7 +58,7 @@ void take_laptop(Settings& settings) {
     }
     settings.network.encoding = EncodingName::katago_v7;
     settings.network.attention = AttentionName::pooling;
-    // Three times as fast as the usual one (README says what an hour comes to).
+    // Nearly three times as fast as the usual one (README says what an hour comes to).
     if (settings.actors.size == 7) {
         settings.network.blocks = 4;
         settings.network.channels = 32;

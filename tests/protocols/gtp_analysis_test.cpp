@@ -98,9 +98,12 @@ TEST(GtpAnalysis, KataFormAddsRootAndOwnership) {
 
 TEST(GtpAnalysis, OwnershipBeginsAtTheTopLeftForTheMover) {
     Listener guest(small_game(5));
-    // Black holds the upper two rows, White the lower two.
+    // Black holds the upper two rows, White the lower two, each with two eyes, and komi leaves the
+    // game open: a side that has lost may give its stones away, the longer it is searched the more.
+    guest.gtp.handle("komi 0");
     guest.gtp.handle(
-        "set_position b a4 b b4 b c4 b d4 b e4 b a5 b c5 w a2 w b2 w c2 w d2 w e2 w a1 w c1");
+        "set_position b a4 b b4 b c4 b d4 b e4 b a5 b c5 b e5 w a2 w b2 w c2 w d2 w e2 w a1 w c1 "
+        "w e1");
     for (const char* colour : {"b", "w"}) {
         const auto text =
             guest.analyse(std::string("kata-analyze ") + colour + " 1 ownership true maxmoves 1");

@@ -52,14 +52,11 @@ class Engine:
         except BrokenPipeError:
             raise Fault("it is gone") from None
 
-    def next_line(self, timeout=None):
-        """None when nothing comes in time, which is a fault unless a timeout is given."""
+    def next_line(self):
         try:
-            line = self.lines.get(timeout=self.patience if timeout is None else timeout)
+            line = self.lines.get(timeout=self.patience)
         except queue.Empty:
-            if timeout is None:
-                raise Fault(f"no answer in {self.patience} s") from None
-            return None
+            raise Fault(f"no answer in {self.patience} s") from None
         if line is None:
             raise Fault(f"it ended, code {self.process.wait()}")
         return line
@@ -131,17 +128,17 @@ class Gtp:
                  "allow w E5,pass 1", "movesOwnership true", "pvVisits true", "noresult"], rng.randrange(4)))
         if "boardsize" in command:
             return str(rng.choice([5, 7, 9, 9, 9, 13, 19, 2, 25, 26, 0, -3]))
-        if "time" in command:
+        if "time" in command and command != "time_left":
             return " ".join(str(rng.choice([0, 1, 2, 5, -1, 10 ** 9])) for _ in range(rng.choice([2, 3, 3, 4])))
         if command == "time_left":
             return f"{rng.choice(self.colours)} {rng.randrange(10)} {rng.randrange(3)}"
         if "handicap" in command:
             return rng.choice(["2", "4", "9", "0", "D4 E5 D4", " ".join(self.vertex() for _ in range(3))])
-        if command in ("kata-set-rules",):
+        if command == "kata-set-rules":
             return rng.choice(["chinese", "japanese", "tromp-taylor", "aga", "new-zealand", "{}", '{"ko":"SIMPLE"}'])
         if command == "kata-set-rule":
             return rng.choice(["ko POSITIONAL", "scoring AREA", "tax ALL", "x y"])
-        if command in ("loadsgf",):
+        if command == "loadsgf":
             return rng.choice(["/nonexistent.sgf", "/dev/null", "/", ""])
         if command in ("printsgf", "lz-setoption"):
             return ""
@@ -301,10 +298,10 @@ def session(command, protocol, rng, seconds, patience):
         while time.time() < end:
             talk.step()
             steps += 1
-        if rng.random() < 0.5:
+        by_quit = rng.random() < 0.5
+        if by_quit:
             engine.send("quit")
-            engine.process.wait(patience)
-        engine.end(rng.choice([None, None, signal.SIGTERM, signal.SIGINT]) if engine.process.poll() is None else None)
+        engine.end(None if by_quit else rng.choice([None, None, signal.SIGTERM, signal.SIGINT]))
     except Fault as fault:
         engine.process.kill()
         engine.stderr.seek(0)
@@ -322,10 +319,11 @@ def main():
     parser.add_argument("--minutes", type=float, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--patience", type=float, default=60)
-    ours, _, flags = " ".join(sys.argv[1:]).partition(" -- ")
-    options = parser.parse_args(ours.split())
+    words = sys.argv[1:]
+    split = words.index("--") if "--" in words else len(words)
+    options = parser.parse_args(words[:split])
     rng = random.Random(options.seed)
-    command = [options.executable, options.protocol, *flags.split()]
+    command = [options.executable, options.protocol, *words[split + 1:]]
     end, steps, processes = time.time() + options.minutes * 60, 0, 0
     while time.time() < end:
         seconds = min(rng.choice([5, 20, 60, 180]), max(0.0, end - time.time()))

@@ -56,7 +56,8 @@ class Compiler {
 
     void append_convolution(int n) {
         if constexpr (std::is_same_v<Number, float>)
-            if (!onednn::has_avx512()) return append_blocked<TiledStep>(n);
+            if (!onednn::has_avx512())
+                return append_blocked<ConvolutionStep<float, TiledConvolution>>(n);
         append_blocked<ConvolutionStep<Number>>(n);
     }
 

@@ -8,85 +8,62 @@ namespace nn::training {
 
 // --- convolution
 
-namespace {
-
-template <class Number>
-void add_bias_gradient(Blocked<Number>& blocked, int n) {
-    const auto extent = blocked.extent(n);
-    std::vector<float> sums(at(extent.blocks() * lanes)), squares(sums.size());
-    blocked.loops.moments(extent, blocked.gradient(n), sums.data(), squares.data());
-    auto bias = blocked.tape.weight_gradient(n, 1);
-    for (Eigen::Index c = 0; c < bias.rows(); ++c) bias(c, 0) += sums[static_cast<std::size_t>(c)];
-}
-
-}  // namespace
-
-template <class Number>
-ConvolutionStep<Number>::ConvolutionStep(Blocked<Number>& blocked, int n)
+template <class Number, class Kernel>
+ConvolutionStep<Number, Kernel>::ConvolutionStep(Blocked<Number>& blocked, int n)
     : blocked_(blocked),
       n_(n),
       x_(blocked.tape.input(n, 0)),
       biased_(blocked.tape.node(n).weights.size() > 1),
-      convolution_(blocked.device, blocked.tape.node(n), blocked.extent(x_), blocked.tape.board) {
+      convolution_(kernel()) {
     if constexpr (std::is_same_v<Number, Bf16>)
-        paired_.emplace(blocked.extent(x_), blocked.extent(n_),
-                        blocked.tape.node(n_).weights[0].shape[2], blocked.tape.board);
+        paired_.emplace(blocked.extent(x_), blocked.extent(n_), side(), blocked.tape.board);
 }
 
-template <class Number>
-void ConvolutionStep<Number>::load() {
+template <class Number, class Kernel>
+Kernel ConvolutionStep<Number, Kernel>::kernel() const {
+    const auto& tape = blocked_.tape;
+    const auto x = blocked_.extent(x_);
+    if constexpr (std::is_same_v<Kernel, TiledConvolution>)
+        return Kernel(x, blocked_.extent(n_), side(), tape.board);
+    else
+        return Kernel(blocked_.device, tape.node(n_), x, tape.board);
+}
+
+template <class Number, class Kernel>
+void ConvolutionStep<Number, Kernel>::load() {
     const auto& tape = blocked_.tape;
     convolution_.load(tape.weight(n_, 0).data(), biased_ ? tape.weight(n_, 1).data() : nullptr);
 }
 
-template <class Number>
-void ConvolutionStep<Number>::forward() {
+template <class Number, class Kernel>
+void ConvolutionStep<Number, Kernel>::forward() {
     convolution_.forward(blocked_.value(x_), blocked_.value(n_));
 }
 
-template <class Number>
-void ConvolutionStep<Number>::backward() {
+template <class Number, class Kernel>
+void ConvolutionStep<Number, Kernel>::backward() {
     auto* const gradient = blocked_.gradient(n_);
     if constexpr (std::is_same_v<Number, Bf16>)
         paired_->add(blocked_.value(x_), gradient);
     else
         convolution_.backward_weights(blocked_.value(x_), gradient);
     blocked_.give_gradient(x_, [&](Number* place) { convolution_.backward_data(gradient, place); });
-    if (biased_) add_bias_gradient(blocked_, n_);
+    if (!biased_) return;
+    const auto extent = blocked_.extent(n_);
+    std::vector<float> sums(at(extent.blocks() * lanes)), squares(sums.size());
+    blocked_.loops.moments(extent, gradient, sums.data(), squares.data());
+    auto bias = blocked_.tape.weight_gradient(n_, 1);
+    for (Eigen::Index c = 0; c < bias.rows(); ++c) bias(c, 0) += sums[static_cast<std::size_t>(c)];
 }
 
-template <class Number>
-void ConvolutionStep<Number>::collect() {
+template <class Number, class Kernel>
+void ConvolutionStep<Number, Kernel>::collect() {
     auto* const kernel = blocked_.tape.weight_gradient(n_, 0).data();
     if constexpr (std::is_same_v<Number, Bf16>)
         paired_->collect(kernel);
     else
         convolution_.collect(kernel);
 }
-
-TiledStep::TiledStep(Blocked<float>& blocked, int n)
-    : blocked_(blocked),
-      n_(n),
-      x_(blocked.tape.input(n, 0)),
-      biased_(blocked.tape.node(n).weights.size() > 1),
-      convolution_(blocked.extent(x_), blocked.extent(n), blocked.tape.node(n).weights[0].shape[2],
-                   blocked.tape.board) {}
-
-void TiledStep::load() {
-    const auto& tape = blocked_.tape;
-    convolution_.load(tape.weight(n_, 0).data(), biased_ ? tape.weight(n_, 1).data() : nullptr);
-}
-
-void TiledStep::forward() { convolution_.forward(blocked_.value(x_), blocked_.value(n_)); }
-
-void TiledStep::backward() {
-    const auto* const gradient = blocked_.gradient(n_);
-    convolution_.backward_weights(blocked_.value(x_), gradient);
-    blocked_.give_gradient(x_, [&](float* place) { convolution_.backward_data(gradient, place); });
-    if (biased_) add_bias_gradient(blocked_, n_);
-}
-
-void TiledStep::collect() { convolution_.collect(blocked_.tape.weight_gradient(n_, 0).data()); }
 
 // --- batch norm; the formulas are in nn/training/batch_norm.cpp
 
@@ -229,6 +206,7 @@ void UnblockStep<Number>::backward() {
 }
 
 template class ConvolutionStep<float>;
+template class ConvolutionStep<float, TiledConvolution>;
 template class ConvolutionStep<Bf16>;
 template class NormStep<float>;
 template class NormStep<Bf16>;

@@ -11,7 +11,8 @@
 
 namespace nn::training {
 
-template <class Number>
+// By Kernel, which is a Convolution<Number> or, in fp32, a TiledConvolution.
+template <class Number, class Kernel = Convolution<Number>>
 class ConvolutionStep : public Step {
    public:
     ConvolutionStep(Blocked<Number>& blocked, int n);
@@ -21,27 +22,14 @@ class ConvolutionStep : public Step {
     void collect() override;
 
    private:
+    int side() const { return blocked_.tape.node(n_).weights[0].shape[2]; }
+    Kernel kernel() const;
+
     Blocked<Number>& blocked_;
     int n_, x_;
     bool biased_;
-    Convolution<Number> convolution_;
+    Kernel convolution_;
     std::optional<PairedGradient> paired_;  // of bf16, in place of the library's
-};
-
-// Likewise in fp32 by our own loops.
-class TiledStep : public Step {
-   public:
-    TiledStep(Blocked<float>& blocked, int n);
-    void load() override;
-    void forward() override;
-    void backward() override;
-    void collect() override;
-
-   private:
-    Blocked<float>& blocked_;
-    int n_, x_;
-    bool biased_;
-    TiledConvolution convolution_;
 };
 
 // A batch norm with the addition of `residual` (unless -1) and the relu that follow: y =

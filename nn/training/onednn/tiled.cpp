@@ -18,6 +18,12 @@ struct Portable {
 
 std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
+// In a kernel, of the number that channel `in` gives channel `out`.
+std::size_t place_of(const TileShape& shape, Index in, Index out, Index place) {
+    const Index block = (out / lanes * shape.in + in / lanes) * shape.places() + place;
+    return at((block * lanes + in % lanes) * lanes + out % lanes);
+}
+
 }  // namespace
 
 constinit const TileLoops portable_tile_loops = TileLoopsBody<Portable>::table();
@@ -35,13 +41,6 @@ TiledConvolution::TiledConvolution(Extent x, Extent y, int side, int board, cons
       no_bias_(at(shape_.in * lanes)),
       frame_(at(std::max(shape_.in, shape_.out) * shape_.framed() * shape_.framed() * lanes)),
       sums_(kernel_.size()) {}
-
-// Of the number that channel `in` gives channel `out`.
-std::size_t TiledConvolution::place_of(const TileShape& shape, Index in, Index out,
-                                       Index place) const {
-    const Index block = (out / lanes * shape.in + in / lanes) * shape.places() + place;
-    return at((block * lanes + in % lanes) * lanes + out % lanes);
-}
 
 // What flows back is a convolution too: by the same numbers, the kernel turned by half a circle.
 void TiledConvolution::load(const float* kernel, const float* bias) {

@@ -52,14 +52,12 @@ class TiledConvolution {
 
    private:
     const float* frame(const float* sample, std::ptrdiff_t blocks);
-    std::size_t place_of(const TileShape& shape, std::ptrdiff_t in, std::ptrdiff_t out,
-                         std::ptrdiff_t place) const;
 
     const TileLoops& loops_;
     Extent x_, y_;
     TileShape shape_;
     std::vector<float> kernel_, turned_kernel_, bias_, no_bias_, frame_;
-    std::vector<float> sums_;
+    std::vector<float> sums_;  // laid out like kernel_
 };
 
 }  // namespace nn::training

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "engine/base/random.h"
 #include "nn/onednn/library.h"
 #include "nn/training/tape.h"
