@@ -82,7 +82,7 @@ class Worker {
     std::vector<std::span<float>> out_;
 };
 
-struct Case {
+struct Measurement {
     const Graph& graph;
     const BenchSettings& settings;
     const Calibration& calibration;
@@ -91,7 +91,7 @@ struct Case {
     Precision served;
 };
 
-Rates measure(const Case& c) {
+Rates measure(const Measurement& c) {
     Worker worker(c.graph, c.program, c.positions);
     const double share = c.settings.seconds / repeats / 3;
 #if defined(SANBAN_ONEDNN)
@@ -126,7 +126,7 @@ std::vector<engine::Figure> bench_network(const Graph& graph, const BenchSetting
                                           const std::string& prefix) {
     const auto served = served_precision(graph, settings.precision, settings.board);
     const auto program = compile(graph, served, calibration, settings.board);
-    const Case current{graph, settings, calibration, *program, positions, served};
+    const Measurement current{graph, settings, calibration, *program, positions, served};
     std::vector<Rates> rates(static_cast<std::size_t>(settings.threads));
     std::vector<std::thread> threads;
     threads.reserve(rates.size());

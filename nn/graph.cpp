@@ -41,7 +41,7 @@ std::string text_of(Shape shape) {
 }
 
 // One node under inspection with the shapes before it.
-struct Case {
+struct Inference {
     const Node& node;
     std::vector<Shape> inputs;
     int board;
@@ -85,7 +85,7 @@ struct Case {
     }
 };
 
-Shape shape_of_input(const Case& c) {
+Shape shape_of_input(const Inference& c) {
     c.expect_inputs(0);
     c.expect_weights(0, 0);
     if (c.node.shape.channels < 1 || c.node.shape.channels > most_channels)
@@ -93,7 +93,7 @@ Shape shape_of_input(const Case& c) {
     return c.node.shape;
 }
 
-Shape shape_of_convolution(const Case& c) {
+Shape shape_of_convolution(const Inference& c) {
     c.expect_inputs(1, true);
     c.expect_board(0);
     c.expect_weights(1, 2);
@@ -105,7 +105,7 @@ Shape shape_of_convolution(const Case& c) {
     return c.with_residual(1, {kernel[0], true});
 }
 
-Shape shape_of_dense(const Case& c) {
+Shape shape_of_dense(const Inference& c) {
     c.expect_inputs(1, true);
     c.expect_vector(0);
     c.expect_weights(1, 2);
@@ -118,20 +118,20 @@ Shape shape_of_dense(const Case& c) {
     return c.with_residual(1, {weights[0], false});
 }
 
-Shape shape_of_channelwise(const Case& c, std::size_t weights) {
+Shape shape_of_channelwise(const Inference& c, std::size_t weights) {
     c.expect_inputs(1);
     c.expect_weights(weights, weights);
     for (std::size_t i = 0; i < weights; ++i) c.expect_shape(i, {c.inputs[0].channels});
     return c.inputs[0];
 }
 
-Shape shape_of_add(const Case& c) {
+Shape shape_of_add(const Inference& c) {
     c.expect_inputs(2);
     c.expect_weights(0, 0);
     return c.with_residual(1, c.inputs[0]);
 }
 
-Shape shape_of_add_vector(const Case& c) {
+Shape shape_of_add_vector(const Inference& c) {
     c.expect_inputs(2);
     c.expect_weights(0, 0);
     c.expect_board(0);
@@ -141,14 +141,14 @@ Shape shape_of_add_vector(const Case& c) {
     return c.inputs[0];
 }
 
-Shape shape_of_pool(const Case& c) {
+Shape shape_of_pool(const Inference& c) {
     c.expect_inputs(1);
     c.expect_weights(0, 0);
     c.expect_board(0);
     return {c.inputs[0].channels * (c.node.pooling == Pooling::mean ? 1 : 3), false};
 }
 
-Shape shape_of_squeeze_scale(const Case& c) {
+Shape shape_of_squeeze_scale(const Inference& c) {
     c.expect_inputs(2, true);
     c.expect_weights(0, 0);
     c.expect_board(0);
@@ -159,14 +159,14 @@ Shape shape_of_squeeze_scale(const Case& c) {
     return c.with_residual(2, c.inputs[0]);
 }
 
-Shape shape_of_flatten(const Case& c) {
+Shape shape_of_flatten(const Inference& c) {
     c.expect_inputs(1);
     c.expect_weights(0, 0);
     c.expect_board(0);
     return {c.inputs[0].channels * c.points(), false};
 }
 
-Shape shape_of_concatenate(const Case& c) {
+Shape shape_of_concatenate(const Inference& c) {
     c.expect_weights(0, 0);
     if (c.inputs.empty()) c.refuse("expected inputs, found none");
     std::int64_t channels = 0;
@@ -178,7 +178,7 @@ Shape shape_of_concatenate(const Case& c) {
     return {static_cast<int>(channels), false};
 }
 
-Shape shape_of_gather(const Case& c) {
+Shape shape_of_gather(const Inference& c) {
     c.expect_inputs(1);
     c.expect_weights(0, 0);
     c.expect_vector(0);
@@ -189,7 +189,7 @@ Shape shape_of_gather(const Case& c) {
     return {static_cast<int>(c.node.table.size()), false};
 }
 
-Shape shape_of_point_bias(const Case& c) {
+Shape shape_of_point_bias(const Inference& c) {
     c.expect_inputs(1);
     c.expect_weights(1, 1);
     c.expect_board(0);
@@ -197,7 +197,7 @@ Shape shape_of_point_bias(const Case& c) {
     return c.inputs[0];
 }
 
-Shape shape_of(const Case& c) {
+Shape shape_of(const Inference& c) {
     switch (c.node.operation) {
         case Operation::input:
             return shape_of_input(c);
@@ -370,7 +370,7 @@ std::vector<Shape> infer_shapes(const Graph& graph, int board) {
     std::vector<Shape> shapes;
     shapes.reserve(graph.nodes.size());
     for (const auto& node : graph.nodes) {
-        Case current{node, {}, board};
+        Inference current{node, {}, board};
         for (const int input : node.inputs) {
             if (input < 0 || input >= static_cast<int>(shapes.size()))
                 current.refuse("input {} is no earlier operation", input);

@@ -15,7 +15,6 @@ using engine::fail;
 using katago::Reader;
 
 constexpr int spatial_inputs = 22, global_inputs = 19;
-constexpr int most_channels = 1 << 14;
 
 struct Multipliers {
     float time_difference = 20, mean = 20, deviation = 20, lead = 20, variance_time = 40,
@@ -35,9 +34,9 @@ Tensor rows(const Tensor& tensor, std::initializer_list<int> which, float factor
     return chosen;
 }
 
-class Importer {
+class KatagoImporter {
    public:
-    explicit Importer(std::string_view bytes) : reader_(bytes) {}
+    explicit KatagoImporter(std::string_view bytes) : reader_(bytes) {}
 
     Graph run() {
         read_header();
@@ -108,7 +107,7 @@ class Importer {
     int version_ = 0, count_ = 0, trunk_channels_ = 0;
 };
 
-void Importer::read_header() {
+void KatagoImporter::read_header() {
     graph_.facts.name = std::string(reader_.word("the name of the network"));
     version_ = reader_.integer("a version of KataGo's format", 1, 1000);
     if (version_ < 8 || version_ > 16)
@@ -129,18 +128,18 @@ void Importer::read_header() {
     graph_.facts.source = fmt::format("KataGo version {}", version_);
 }
 
-void Importer::read_version_15_header() {
+void KatagoImporter::read_version_15_header() {
     if (reader_.integer("a metadata encoder", 0, 1000) != 0)
         fail("expected no metadata encoder, found one (a human-imitating network)");
     reader_.integer("how it likes passing-alive", 0, 1);
     for (int i = 0; i < 6; ++i) reader_.integer("a reserved zero", 0, 0);
 }
 
-int Importer::read_trunk() {
+int KatagoImporter::read_trunk() {
     reader_.word("the name of the trunk");
     const int blocks = reader_.integer("blocks", 1, 1000);
-    trunk_channels_ = reader_.integer("trunk channels", 1, most_channels);
-    for (int i = 0; i < 4; ++i) reader_.integer("channels of a kind", 0, most_channels);
+    trunk_channels_ = reader_.integer("trunk channels", 1, katago::most_channels);
+    for (int i = 0; i < 4; ++i) reader_.integer("channels of a kind", 0, katago::most_channels);
     if (version_ >= 15) {
         if (reader_.integer("a kind of norm", 0, 1000) != 0)
             fail("expected batch norms in the trunk, found RMS norms (a transformer)");
@@ -159,7 +158,7 @@ int Importer::read_trunk() {
     return norm_and_activation(x, trunk_channels_);
 }
 
-int Importer::read_block(int x, int channels, int depth) {
+int KatagoImporter::read_block(int x, int channels, int depth) {
     const std::string kind(reader_.word("a kind of block"));
     const std::string name(reader_.word("the name of a block"));
     if (kind == "ordinary_block") return read_ordinary_block(name, x, channels);
@@ -171,14 +170,14 @@ int Importer::read_block(int x, int channels, int depth) {
     fail("{}: expected a kind of block that KataGo 1.16 knows, found another", name.substr(0, 40));
 }
 
-int Importer::read_ordinary_block(const std::string&, int x, int channels) {
+int KatagoImporter::read_ordinary_block(const std::string&, int x, int channels) {
     const int before = norm_and_activation(x, channels);
     const auto [middle, middle_channels] = convolution(before, channels);
     const int active = norm_and_activation(middle, middle_channels);
     return sum(Operation::add, x, convolution(active, middle_channels).first);
 }
 
-int Importer::read_pooling_block(const std::string&, int x, int channels) {
+int KatagoImporter::read_pooling_block(const std::string&, int x, int channels) {
     const int before = norm_and_activation(x, channels);
     const auto [regular, regular_channels] = convolution(before, channels);
     const auto [pooling, pooling_channels] = convolution(before, channels);
@@ -190,7 +189,7 @@ int Importer::read_pooling_block(const std::string&, int x, int channels) {
     return sum(Operation::add, x, convolution(middle, regular_channels).first);
 }
 
-int Importer::read_nested_block(const std::string&, int x, int channels, int depth) {
+int KatagoImporter::read_nested_block(const std::string&, int x, int channels, int depth) {
     const int inner = reader_.integer("inner blocks", 1, 1000);
     const int before = norm_and_activation(x, channels);
     auto [y, inner_channels] = convolution(before, channels);
@@ -199,7 +198,7 @@ int Importer::read_nested_block(const std::string&, int x, int channels, int dep
     return sum(Operation::add, x, convolution(after, inner_channels).first);
 }
 
-void Importer::read_policy_head(int trunk) {
+void KatagoImporter::read_policy_head(int trunk) {
     reader_.word("the name of the policy head");
     const auto [first, channels] = convolution(trunk, trunk_channels_);
     const auto [pooling, pooling_channels] = convolution(trunk, trunk_channels_);
@@ -216,7 +215,7 @@ void Importer::read_policy_head(int trunk) {
                 add_operation(graph_, Operation::concatenate, unique("policy"), {flat, pass}));
 }
 
-int Importer::read_pass(int pooled, int pooled_channels, int channels) {
+int KatagoImporter::read_pass(int pooled, int pooled_channels, int channels) {
     auto weight = katago::read_matrix(reader_, pooled_channels).weight;
     if (version_ < 15) return add_dense(graph_, unique("pass"), pooled, {rows(weight, {0})});
     expect_equal(weight.shape[0], channels, "channels before the pass");
@@ -227,7 +226,7 @@ int Importer::read_pass(int pooled, int pooled_channels, int channels) {
                      {rows(katago::read_matrix(reader_, channels).weight, {0})});
 }
 
-void Importer::read_value_head(int trunk) {
+void KatagoImporter::read_value_head(int trunk) {
     reader_.word("the name of the value head");
     const auto [first, channels] = convolution(trunk, trunk_channels_);
     const int active = norm_and_activation(first, channels);
@@ -253,7 +252,7 @@ void Importer::read_value_head(int trunk) {
                 add_activation(graph_, unique("ownership"), ownership.first, Activation::tanh));
 }
 
-void Importer::add_score_outputs(int hidden, const Tensor& weight, const Tensor& bias) {
+void KatagoImporter::add_score_outputs(int hidden, const Tensor& weight, const Tensor& bias) {
     const auto straight = [&](const char* name, int row, float factor) {
         output(name, hidden, {rows(weight, {row}, factor), rows(bias, {row}, factor)},
                Activation::identity);
@@ -275,7 +274,7 @@ void Importer::add_score_outputs(int hidden, const Tensor& weight, const Tensor&
 
 // Version 9: softplus(x) and 10 softplus(x). To 13: sqrt(m softplus(x)). From 14 on:
 // sqrt(m) softplus(x / 2).
-void Importer::add_short_term_errors(int hidden, const Tensor& weight, const Tensor& bias) {
+void KatagoImporter::add_short_term_errors(int hidden, const Tensor& weight, const Tensor& bias) {
     const auto add = [&](const char* name, int row, float multiplier, float old_factor) {
         const float inside = version_ >= 14 ? 0.5f : 1.0f;
         int y = add_dense(graph_, unique(name), hidden,
@@ -308,6 +307,6 @@ bool is_katago(std::string_view bytes) {
            std::all_of(name.begin(), name.end(), [](char c) { return c > ' ' && c < '\x7f'; });
 }
 
-Graph graph_from_katago(std::string_view bytes) { return Importer(bytes).run(); }
+Graph graph_from_katago(std::string_view bytes) { return KatagoImporter(bytes).run(); }
 
 }  // namespace nn

@@ -12,8 +12,6 @@ namespace {
 
 using engine::fail;
 
-constexpr int most_channels = 1 << 14;
-
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 // What a message may quote of a file that could hold anything.

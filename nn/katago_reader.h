@@ -10,6 +10,8 @@
 
 namespace nn::katago {
 
+constexpr int most_channels = 1 << 14;  // of any layer
+
 class Reader {
    public:
     explicit Reader(std::string_view bytes) : bytes_(bytes) {}

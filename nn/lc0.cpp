@@ -16,8 +16,8 @@ namespace {
 
 using engine::fail;
 
-constexpr int input_planes = 112, moves = 1858, squares = 64;
-constexpr float epsilon = 1e-5f;
+constexpr int lc0_planes = 112, moves = 1858, squares = 64;
+constexpr float lc0_epsilon = 1e-5f;
 
 enum : int { classical_policy = 1, convolutional_policy = 2 };
 enum : int { scalar_value = 1, wdl_value = 2 };
@@ -81,15 +81,15 @@ int count_of(const lc0::Layer& layer, const std::string& name) {
 
 // --- the network
 
-class Importer {
+class Lc0Importer {
    public:
-    explicit Importer(const lc0::Net& net) : net_(net), weights_(net.weights()) {}
+    explicit Lc0Importer(const lc0::Net& net) : net_(net), weights_(net.weights()) {}
 
     Graph run() {
         check_format();
         read_facts();
-        body_ = add_input(graph_, "planes", {input_planes, true});
-        channels_ = input_planes;
+        body_ = add_input(graph_, "planes", {lc0_planes, true});
+        channels_ = lc0_planes;
         body_ = active("input", convolution("input", weights_.input(), body_, 3));
         for (int i = 0; i < weights_.blocks_size(); ++i) read_block(i);
         read_policy();
@@ -127,7 +127,7 @@ class Importer {
     Activation activation_ = Activation::relu;
 };
 
-void Importer::check_format() {
+void Lc0Importer::check_format() {
     if (net_.has_onnx()) fail("expected a residual network of lc0, found an ONNX model");
     if (!net_.has_weights()) fail("expected weights, found none");
     const auto& format = net_.format().network();
@@ -151,7 +151,7 @@ void Importer::check_format() {
     if (format.activation() == 1) activation_ = Activation::mish;
 }
 
-void Importer::read_facts() {
+void Lc0Importer::read_facts() {
     graph_.facts.game = "chess";
     graph_.facts.encoding = "lc0-112";
     graph_.facts.source = "lc0";
@@ -161,7 +161,8 @@ void Importer::read_facts() {
     graph_.facts.steps = net_.training().steps();
 }
 
-int Importer::convolution(const std::string& name, const lc0::Convolution& layer, int x, int side) {
+int Lc0Importer::convolution(const std::string& name, const lc0::Convolution& layer, int x,
+                             int side) {
     const bool normed = layer.has_mean() && !layer.mean().data().empty();
     const int out = count_of(normed ? layer.mean() : layer.bias(), name);
     std::vector<Tensor> weights = {tensor_of(layer.kernel(), name, {out, channels_, side, side})};
@@ -178,17 +179,17 @@ int Importer::convolution(const std::string& name, const lc0::Convolution& layer
         graph_, name + ".norm", y,
         {tensor_of(layer.mean(), name, {out}), tensor_of(layer.variance(), name, {out}),
          otherwise(layer.scale(), 1), otherwise(layer.shift(), 0)},
-        epsilon);
+        lc0_epsilon);
 }
 
-int Importer::dense(const std::string& name, const lc0::Layer& weight, const lc0::Layer& bias,
-                    int x, int inputs) {
+int Lc0Importer::dense(const std::string& name, const lc0::Layer& weight, const lc0::Layer& bias,
+                       int x, int inputs) {
     const int out = count_of(bias, name);
     return add_dense(graph_, name, x,
                      {tensor_of(weight, name, {out, inputs}), tensor_of(bias, name, {out})});
 }
 
-void Importer::read_block(int index) {
+void Lc0Importer::read_block(int index) {
     const auto& block = weights_.blocks(index);
     const auto name = fmt::format("block{}", index);
     const int first =
@@ -198,7 +199,7 @@ void Importer::read_block(int index) {
     body_ = active(name, add_operation(graph_, Operation::add, name + ".sum", {y, body_}));
 }
 
-int Importer::excite(const std::string& name, const lc0::Excitation& excitation, int x) {
+int Lc0Importer::excite(const std::string& name, const lc0::Excitation& excitation, int x) {
     const int pooled = add_pool(graph_, name + ".mean", x, Pooling::mean);
     const int narrow = count_of(excitation.bias1(), name);
     const int squeezed = active(name + ".squeeze", dense(name + ".squeeze", excitation.weight1(),
@@ -208,7 +209,7 @@ int Importer::excite(const std::string& name, const lc0::Excitation& excitation,
     return add_operation(graph_, Operation::squeeze_scale, name + ".scale", {x, excited});
 }
 
-void Importer::read_policy() {
+void Lc0Importer::read_policy() {
     const int body_channels = channels_;
     int y = body_;
     if (policy_ == convolutional_policy) {
@@ -226,7 +227,7 @@ void Importer::read_policy() {
     channels_ = body_channels;
 }
 
-void Importer::read_value() {
+void Lc0Importer::read_value() {
     const int body_channels = channels_;
     int y = active("value", convolution("value", weights_.value(), body_, 1));
     y = active("value1", dense("value1", weights_.value1_weight(), weights_.value1_bias(),
@@ -243,7 +244,7 @@ void Importer::read_value() {
     channels_ = body_channels;
 }
 
-void Importer::read_moves_left() {
+void Lc0Importer::read_moves_left() {
     const int body_channels = channels_;
     int y = active("moves", convolution("moves", weights_.moves_left(), body_, 1));
     y = active("moves1", dense("moves1", weights_.moves1_weight(), weights_.moves1_bias(),
@@ -300,7 +301,7 @@ Graph graph_from_lc0(std::string_view bytes) {
     if (bytes.size() > std::size_t{1} << 30 ||
         !net.ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
         fail("expected lc0's protobuf message, found a damaged or cut one");
-    return Importer(net).run();
+    return Lc0Importer(net).run();
 }
 
 }  // namespace nn

@@ -12,8 +12,8 @@ namespace {
 
 using engine::fail;
 
-constexpr int input_planes = 18;
-constexpr std::size_t most_channels = 1 << 12, most_lines = 4000;
+constexpr int leela_planes = 18;
+constexpr std::size_t leela_channels = 1 << 12, most_lines = 4000;
 
 using Line = std::vector<float>;
 
@@ -47,14 +47,14 @@ std::vector<Line> lines_of(std::string_view text) {
     return lines;
 }
 
-class Importer {
+class LeelaZeroImporter {
    public:
-    explicit Importer(std::vector<Line> lines) : lines_(std::move(lines)) {}
+    explicit LeelaZeroImporter(std::vector<Line> lines) : lines_(std::move(lines)) {}
 
     Graph run() {
         measure();
-        int x = add_input(graph_, "planes", {input_planes, true});
-        x = normed("input", x, input_planes, channels_, 3);
+        int x = add_input(graph_, "planes", {leela_planes, true});
+        x = normed("input", x, leela_planes, channels_, 3);
         x = relu("input", x);
         for (int i = 0; i < graph_.facts.blocks; ++i) x = block(fmt::format("block{}", i), x);
         policy(x);
@@ -70,12 +70,12 @@ class Importer {
             fail("expected {} lines and {} for each block, found {}", heads, per_block,
                  lines_.size());
         const auto channels = lines_[2].size();
-        if (channels == 0 || channels > most_channels)
-            fail("expected 1 to {} channels, found {}", most_channels, channels);
+        if (channels == 0 || channels > leela_channels)
+            fail("expected 1 to {} channels, found {}", leela_channels, channels);
         channels_ = static_cast<int>(channels);
-        if (lines_[1].size() != channels * input_planes * 9)
+        if (lines_[1].size() != channels * leela_planes * 9)
             fail("expected {} weights for {} planes, found {} (a text network of lc0?)",
-                 channels * input_planes * 9, input_planes, lines_[1].size());
+                 channels * leela_planes * 9, leela_planes, lines_[1].size());
         const auto moves = lines_[lines_.size() - 9].size();
         int board = 2;
         const auto moves_of = [](int size) {
@@ -148,7 +148,7 @@ class Importer {
 
     void value(int x) {
         const int planes = relu("value", normed("value", x, channels_, 1, 1));
-        const int width = static_cast<int>(std::min(lines_[next_ + 1].size(), most_channels));
+        const int width = static_cast<int>(std::min(lines_[next_ + 1].size(), leela_channels));
         const int hidden = relu("value1", dense("value1", flat("value", planes), points(), width));
         name_output(graph_, "value",
                     add_activation(graph_, "value.tanh", dense("value2", hidden, width, 1),
@@ -169,6 +169,8 @@ bool is_leela_zero(std::string_view bytes) {
     return end != bytes.npos && (line == "1" || line == "2" || line == "1\r" || line == "2\r");
 }
 
-Graph graph_from_leela_zero(std::string_view bytes) { return Importer(lines_of(bytes)).run(); }
+Graph graph_from_leela_zero(std::string_view bytes) {
+    return LeelaZeroImporter(lines_of(bytes)).run();
+}
 
 }  // namespace nn

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nn/index.h"
+
 namespace nn {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // How often every node is read, by nodes and as an output.
 std::vector<int> use_counts(const Graph& graph) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "nn/index.h"
+
 namespace nn {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // The last node that reads each node's result; outputs and inputs live on to the end.
 std::vector<int> last_uses(const Graph& graph) {

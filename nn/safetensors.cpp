@@ -249,7 +249,7 @@ File opened(std::string_view bytes) {
 }
 
 // A file in the making: its tensors, and their entries in the header.
-struct Contents {
+struct Members {
     Json header = Json::object();
     std::string data;
 
@@ -305,7 +305,7 @@ Calibration calibration_from_safetensors(std::string_view bytes, const Graph& gr
 
 std::string to_safetensors(const Graph& graph, const Extras& extras,
                            const Calibration& calibration) {
-    Contents contents;
+    Members contents;
     for (const auto& node : graph.nodes)
         for (std::size_t i = 0; i < node.weights.size(); ++i)
             contents.add(fmt::format("{}.{}", node.name, weight_names(node.operation)[i]),

@@ -16,13 +16,13 @@ namespace protocols {
 
 namespace {
 
-struct Input {
+struct LearnFlags {
     selfplay::training::LectureInput lecture;
     std::optional<std::string> game, preset;
     SettingTexts settings;
 };
 
-void add_flags(CLI::App& app, Input& input) {
+void add_flags(CLI::App& app, LearnFlags& input) {
     auto& lecture = input.lecture;
     lecture.threads = default_threads();
     app.add_option("RECORDS", lecture.records, "files of self-play games, or folders of them")
@@ -48,7 +48,7 @@ int run_learn(Arguments arguments) {
         "Learns from recorded games and writes a network; nothing is played. The stages of "
         "AlphaGo's training have flags of their own: sanban learn rollout --help",
         "sanban learn");
-    Input input;
+    LearnFlags input;
     add_flags(app, input);
     if (const auto status = parse_flags(app, arguments)) return *status;
     auto wanted = wanted_of(input.settings);

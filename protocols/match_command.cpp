@@ -27,7 +27,7 @@ using selfplay::Standing;
 
 // What CLI11 fills in, before it is checked and turned into MatchSettings. Lists of engines' own
 // values hold one entry for both or one for each.
-struct Input {
+struct MatchFlags {
     MatchSettings match;
     std::vector<std::string> engines, names, protocols, times;
     std::vector<std::string> init, init_first, init_second;
@@ -40,7 +40,7 @@ struct Input {
     bool same_colours = false;
 };
 
-void add_players(CLI::App& app, Input& input) {
+void add_players(CLI::App& app, MatchFlags& input) {
     app.add_option("-e,--engine", input.engines,
                    "command line of an engine, quotes as in a shell; \"internal [name=value]...\" "
                    "is sanban's own search in this process. Twice")
@@ -63,7 +63,7 @@ void add_players(CLI::App& app, Input& input) {
     app.add_option("--log", input.log, "file to which the engines' stderr is appended");
 }
 
-void add_go(CLI::App& app, Input& input) {
+void add_go(CLI::App& app, MatchFlags& input) {
     auto& match = input.match;
     app.add_option("--size", match.go.size, "board size")->capture_default_str();
     app.add_option("--komi", match.go.komi, "komi")->capture_default_str();
@@ -78,7 +78,7 @@ void add_go(CLI::App& app, Input& input) {
         ->capture_default_str();
 }
 
-void add_game(CLI::App& app, Input& input) {
+void add_game(CLI::App& app, MatchFlags& input) {
     auto& match = input.match;
     app.add_option("--game", match.game, "go, chess or shogi")
         ->check(CLI::IsMember({"go", "chess", "shogi"}))
@@ -111,7 +111,7 @@ void add_game(CLI::App& app, Input& input) {
         ->expected(2);
 }
 
-void add_schedule(CLI::App& app, Input& input) {
+void add_schedule(CLI::App& app, MatchFlags& input) {
     auto& match = input.match;
     app.add_option("-n,--games", match.games, "games to play")->capture_default_str();
     app.add_flag("--same-colours", input.same_colours,
@@ -128,7 +128,7 @@ void add_schedule(CLI::App& app, Input& input) {
         ->capture_default_str();
 }
 
-void add_clock(CLI::App& app, Input& input) {
+void add_clock(CLI::App& app, MatchFlags& input) {
     app.add_option("-t,--time", input.times,
                    "for both engines or one for each: \"none\", \"absolute MAIN\", \"byoyomi MAIN "
                    "PERIOD PERIODS\", \"canadian MAIN PERIOD STONES\", \"fischer MAIN INCREMENT\", "
@@ -165,7 +165,7 @@ std::string usual_protocol(const std::string& game) {
     return game == "go" ? "gtp" : game == "chess" ? "uci" : "usi";
 }
 
-selfplay::PlayerSettings player(const Input& input, std::size_t engine) {
+selfplay::PlayerSettings player(const MatchFlags& input, std::size_t engine) {
     selfplay::PlayerSettings player;
     player.command = input.engines[engine];
     const bool internal = selfplay::split_command(player.command)[0] == "internal";
@@ -183,14 +183,14 @@ selfplay::PlayerSettings player(const Input& input, std::size_t engine) {
     return player;
 }
 
-std::optional<selfplay::Sprt> sprt_of(const Input& input) {
+std::optional<selfplay::Sprt> sprt_of(const MatchFlags& input) {
     if (input.sprt.empty()) return std::nullopt;
     using selfplay::EloScale;
     const auto scale = input.sprt_scale == "logistic" ? EloScale::logistic : EloScale::normalised;
     return selfplay::Sprt{input.sprt[0], input.sprt[1], input.sprt[2], input.sprt[3], scale};
 }
 
-selfplay::Adjudication adjudication_of(const Input& input) {
+selfplay::Adjudication adjudication_of(const MatchFlags& input) {
     selfplay::Adjudication adjudication;
     if (!input.draw.empty()) {
         adjudication.draw_moves = input.draw[0];
@@ -204,7 +204,7 @@ selfplay::Adjudication adjudication_of(const Input& input) {
     return adjudication;
 }
 
-void complete_go(const Input& input, MatchSettings& match) {
+void complete_go(const MatchFlags& input, MatchSettings& match) {
     if (match.go.size < go::min_size || match.go.size > go::max_size)
         engine::fail("--size must lie in {}..{}, not {}", go::min_size, go::max_size,
                      match.go.size);
@@ -216,7 +216,7 @@ void complete_go(const Input& input, MatchSettings& match) {
     match.agree_on_dead = input.dead == "agree" || (input.dead == "auto" && agreement);
 }
 
-MatchSettings settings_of(const Input& input) {
+MatchSettings settings_of(const MatchFlags& input) {
     auto match = input.match;
     if (input.engines.size() != 2)
         engine::fail("match needs two engines: give --engine twice, not {} time(s)",
@@ -308,7 +308,7 @@ std::string summary(const Standing& standing) {
 int run_match(Arguments arguments) {
     CLI::App app("Plays two engines against each other; our rules referee every move.",
                  "sanban match");
-    Input input;
+    MatchFlags input;
     add_players(app, input);
     add_game(app, input);
     add_go(app, input);

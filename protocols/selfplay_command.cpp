@@ -24,7 +24,7 @@ namespace {
 
 namespace training = selfplay::training;
 
-struct Input {
+struct SelfPlayFlags {
     std::string game = "go", folder;
     NetworkFlags network;
     training::NetworkSettings fresh;
@@ -72,13 +72,13 @@ class ProgressLine {
 };
 
 template <engine::Encoded G>
-struct Player {
+struct Trainee {
     std::shared_ptr<const search::EvaluatorSource<G>> network;
     std::uint64_t steps = 0;
 };
 
 template <engine::Encoded G>
-Player<G> new_player(const Input& input) {
+Trainee<G> new_player(const SelfPlayFlags& input) {
     const G start = training::largest_position<G>(input.play.actors);
     auto graph = training::new_network(input.fresh, start, input.play.seed);
     const int board = engine::find_encoding<G>(input.fresh.encoding_name()).shape(start).height;
@@ -92,7 +92,7 @@ Player<G> new_player(const Input& input) {
 }
 
 template <engine::Encoded G>
-Player<G> player_of(const Input& input) {
+Trainee<G> player_of(const SelfPlayFlags& input) {
     if (input.network.weights.empty()) return new_player<G>(input);
     auto network = search::load_network<G>(input.network.weights, input.network.precision,
                                            training::largest_position<G>(input.play.actors));
@@ -112,7 +112,7 @@ void print(const training::SelfPlayProgress& progress) {
 }
 
 template <engine::Encoded G>
-void play(const Input& input) {
+void play(const SelfPlayFlags& input) {
     const auto player = player_of<G>(input);
     selfplay::records::Archive archive(input.folder);
     if (!archive.damage().empty()) fmt::print(stderr, "{}\n", archive.damage());
@@ -125,7 +125,7 @@ void play(const Input& input) {
     print(progress);
 }
 
-void add_bounds(CLI::App& app, Input& input) {
+void add_bounds(CLI::App& app, SelfPlayFlags& input) {
     app.add_option("--game", input.game, "what to play")
         ->check(CLI::IsMember({"go", "chess", "shogi"}))
         ->capture_default_str();
@@ -145,7 +145,7 @@ int run_selfplay(Arguments arguments) {
         "Plays a network against itself and writes the games, until stopped. Without --weights the "
         "network is a new one with random weights",
         "sanban selfplay");
-    Input input;
+    SelfPlayFlags input;
     input.play.threads = default_threads();
     add_bounds(app, input);
     add_network_flags(app, input.network);

@@ -41,7 +41,7 @@ struct SolveFlags {
     }
 };
 
-struct Line {
+struct Exercise {
     int number = 0;
     std::string text;
 };
@@ -175,8 +175,8 @@ class Solver {
     std::unique_ptr<search::Searcher<G>> searcher_;
 };
 
-std::vector<Line> lines_of(const std::string& path) {
-    std::vector<Line> lines;
+std::vector<Exercise> lines_of(const std::string& path) {
+    std::vector<Exercise> lines;
     std::istringstream in(engine::read_file(path));
     int number = 0;
     for (std::string text; std::getline(in, text);) {
@@ -197,7 +197,7 @@ bool is_shogi(std::string_view line) {
 }
 
 template <engine::Game G>
-int solve_all(const SolveFlags& flags, const std::vector<Line>& lines) {
+int solve_all(const SolveFlags& flags, const std::vector<Exercise>& lines) {
     Solver<G> solver(flags);
     int passed = 0, points = 0, most_points = 0;
     for (const auto& [number, text] : lines) {

@@ -25,7 +25,7 @@ namespace {
 using selfplay::training::Bounds;
 using selfplay::training::Settings;
 
-struct Input {
+struct TrainFlags {
     std::filesystem::path folder, from;
     std::optional<std::string> game, preset;
     Bounds bounds;
@@ -33,7 +33,7 @@ struct Input {
     SettingTexts settings;
 };
 
-void add_run_flags(CLI::App& app, Input& input) {
+void add_run_flags(CLI::App& app, TrainFlags& input) {
     app.add_option("--game", input.game, "go (unless said otherwise), chess or shogi");
     app.add_option("--dir", input.folder, "folder of the run; one that is there is gone on with")
         ->required();
@@ -58,7 +58,7 @@ void be_nice(int nice) {
         engine::fail("--nice {} is not allowed here", nice);
 }
 
-Settings settings_of(const Input& input) {
+Settings settings_of(const TrainFlags& input) {
     auto wanted = wanted_of(input.settings);
     wanted.game = input.game;
     wanted.preset = input.preset;
@@ -66,7 +66,7 @@ Settings settings_of(const Input& input) {
 }
 
 template <engine::Encoded G>
-void train(const Input& input, const Settings& settings) {
+void train(const TrainFlags& input, const Settings& settings) {
     const StopOnSignal signals;
     selfplay::training::Run<G> run(
         input.folder, settings, input.from, input.threads, input.bounds,
@@ -82,7 +82,7 @@ int run_train(Arguments arguments) {
         "Learns a game from random weights and its rules, until stopped; the newest "
         "network is DIR/latest.safetensors",
         "sanban train");
-    Input input;
+    TrainFlags input;
     add_run_flags(app, input);
     add_setting_flags(app, input.settings);
     if (const auto status = parse_flags(app, arguments)) return *status;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "protocols/uci_stats.h"
+#include "protocols/words.h"
 
 namespace protocols {
 
@@ -15,12 +16,6 @@ namespace {
 
 // Between two looks at the search, and between two reports of the same depth.
 constexpr search::Milliseconds look_interval{20}, report_interval{500};
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    return result;
-}
 
 // Splits "name X value Y" as setoption sends it; names may hold blanks.
 std::pair<std::string, std::string> name_and_value(std::string_view arguments) {

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "engine/encoding.h"
+#include "search/relaxed.h"
 #include "search/tree.h"
 
 namespace search {
 
 namespace {
 
-constexpr auto relaxed = std::memory_order_relaxed;
 constexpr std::size_t numbers = 3 + figure_count;
 constexpr std::size_t fixed_words = 1 + (numbers + 1) / 2;  // sizes, then the numbers
 

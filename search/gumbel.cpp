@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "search/noise.h"
+#include "search/relaxed.h"
 
 namespace search {
 
 namespace {
 
-constexpr auto relaxed = std::memory_order_relaxed;
 constexpr float least_prior = 1e-9f;
 // Of a search without a number of simulations: that of the first round, and how often it doubles.
 constexpr std::uint64_t first_round = 64;

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cassert>
 
+#include "search/relaxed.h"
+
 namespace search {
 
 namespace {
-
-constexpr auto relaxed = std::memory_order_relaxed;
 
 // With a single writer a plain load and store do, and cost nothing.
 template <class T>

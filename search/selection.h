@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "search/relaxed.h"
 #include "search/tree.h"
 
 namespace search {
@@ -35,14 +36,13 @@ struct Ucb1 {
        public:
         AtNode(const Ucb1& rule, const Node& parent)
             : rule_(rule),
-              log_visits_(portable_log(
-                  static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
-                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))) {}
+              log_visits_(portable_log(static_cast<float>(parent.visits.load(relaxed) +
+                                                          parent.in_flight.load(relaxed) + 1u))) {}
 
         float score(const Edge&, const Node* child) const {
             if (!child) return rule_.unvisited;
-            const std::uint32_t losses = child->in_flight.load(std::memory_order_relaxed);
-            const auto tries = child->visits.load(std::memory_order_relaxed) + losses;
+            const std::uint32_t losses = child->in_flight.load(relaxed);
+            const auto tries = child->visits.load(relaxed) + losses;
             if (tries == 0) return rule_.unvisited;
             return child->mean(losses) +
                    rule_.exploration * std::sqrt(log_visits_ / static_cast<float>(tries));
@@ -77,17 +77,15 @@ struct Rave {
        public:
         AtNode(const Rave& rule, const Node& parent)
             : rule_(rule),
-              log_visits_(portable_log(
-                  static_cast<float>(parent.visits.load(std::memory_order_relaxed) +
-                                     parent.in_flight.load(std::memory_order_relaxed) + 1u))),
+              log_visits_(portable_log(static_cast<float>(parent.visits.load(relaxed) +
+                                                          parent.in_flight.load(relaxed) + 1u))),
               edges_(parent.edge_count) {}
 
         float score(const Edge& edge, const Node* child) const {
             const auto made = static_cast<float>(edge.amaf.visits());
             const float m = made + rule_.prior_visits;
-            const std::uint32_t losses =
-                child ? child->in_flight.load(std::memory_order_relaxed) : 0;
-            const auto visits = child ? child->visits.load(std::memory_order_relaxed) : 0;
+            const std::uint32_t losses = child ? child->in_flight.load(relaxed) : 0;
+            const auto visits = child ? child->visits.load(relaxed) : 0;
             const auto n = static_cast<float>(visits + losses);
             if (n + m == 0) return rule_.ucb1.unvisited;
             const float share = m / (n + m + n * m / rule_.equivalence);
@@ -141,16 +139,15 @@ struct TwoCounts {
     };
 
     float losses(const Node& node) const {
-        return virtual_loss * static_cast<float>(node.in_flight.load(std::memory_order_relaxed));
+        return virtual_loss * static_cast<float>(node.in_flight.load(relaxed));
     }
     float count(const Node& node) const {
-        return static_cast<float>(node.visits.load(std::memory_order_relaxed)) + losses(node);
+        return static_cast<float>(node.visits.load(relaxed)) + losses(node);
     }
 };
 
 template <class Allowed>
 Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
-    constexpr auto relaxed = std::memory_order_relaxed;
     const Node& parent = tree[id];
     const auto n = static_cast<float>(parent.visits.load(relaxed) + parent.in_flight.load(relaxed));
     const float c = rule.exploration + rule.growth * portable_log((1 + n + rule.base) / rule.base);
@@ -203,8 +200,7 @@ Edge* select(Tree& tree, NodeId id, const Rule& rule, Allowed allowed) {
     for (Edge& edge : tree.edges_to_enter(id)) {
         if (!allowed(edge.move)) continue;
         const NodeId child = edge.child.load(std::memory_order_acquire);
-        const auto ending =
-            child == no_node ? Ending::unknown : tree[child].ending.load(std::memory_order_relaxed);
+        const auto ending = child == no_node ? Ending::unknown : tree[child].ending.load(relaxed);
         if (ending == Ending::loss) return &edge;
         if (ending == Ending::win) {
             lost = &edge;

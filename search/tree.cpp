@@ -8,6 +8,8 @@
 #include <functional>
 #include <new>
 
+#include "search/relaxed.h"
+
 namespace search {
 
 namespace {
@@ -19,7 +21,6 @@ constexpr std::size_t root_reserve = 4 * (node_units + edge_units(640));
 constexpr std::size_t least_budget = std::size_t{1} << 20, most_budget = std::size_t{32} << 30;
 
 void copy_counts(const Node& from, Node& to) {
-    constexpr auto relaxed = std::memory_order_relaxed;
     to.value_sum.store(from.value_sum.load(relaxed), relaxed);
     to.network_sum.store(from.network_sum.load(relaxed), relaxed);
     to.visits.store(from.visits.load(relaxed), relaxed);
@@ -40,7 +41,7 @@ std::uint16_t pack_prior(float prior) {
 }
 
 float Node::variance() const {
-    if (visits.load(std::memory_order_relaxed) < 2) return 0;
+    if (visits.load(relaxed) < 2) return 0;
     const float middle = mean();
     return std::max(squares.value() - middle * middle, 0.0f);
 }
@@ -84,7 +85,7 @@ NodeId Tree::child(NodeId parent, const Edge& edge) const {
 }
 
 double Tree::share_used() const {
-    const auto left = end_ - std::min(end_, next_.load(std::memory_order_relaxed));
+    const auto left = end_ - std::min(end_, next_.load(relaxed));
     return static_cast<double>(half_units_ - left + passive_used_) /
            static_cast<double>(2 * half_units_);
 }
@@ -101,18 +102,18 @@ NodeId Tree::enter(Edge& edge) {
         if (made == no_node) return no_node;
         if (edge.child.compare_exchange_strong(id, made, std::memory_order_acq_rel)) id = made;
     }
-    node(id).in_flight.fetch_add(1, std::memory_order_relaxed);
+    node(id).in_flight.fetch_add(1, relaxed);
     return id;
 }
 
 void Tree::mark(NodeId id, Ending ending) {
     auto unknown = Ending::unknown;
-    node(id).ending.compare_exchange_strong(unknown, ending, std::memory_order_relaxed);
+    node(id).ending.compare_exchange_strong(unknown, ending, relaxed);
 }
 
 void Tree::unmark(NodeId id) {
-    node(id).ending.store(Ending::none, std::memory_order_relaxed);
-    node(id).plies.store(0, std::memory_order_relaxed);
+    node(id).ending.store(Ending::none, relaxed);
+    node(id).plies.store(0, relaxed);
 }
 
 void Tree::prove(const Path& path, bool lists_all) {
@@ -122,7 +123,6 @@ void Tree::prove(const Path& path, bool lists_all) {
 
 // Whether `parent` is decided now and was not before, one of its children being `child`.
 bool Tree::settle(NodeId parent, const Node& child, bool lists_all) {
-    constexpr auto relaxed = std::memory_order_relaxed;
     Node& settled = node(parent);
     if (settled.decided()) return false;
     const auto decide = [&](Ending ending, int plies) {
@@ -162,15 +162,13 @@ bool Tree::expand(NodeId id, const engine::MoveList& moves, std::span<const floa
     for (std::size_t i = 0; i < count; ++i) {
         Edge& edge = *new (&edges[i]) Edge;
         edge.move = moves[static_cast<int>(i)];
-        edge.packed_prior.store(priors.empty() ? equal : pack_prior(priors[i]),
-                                std::memory_order_relaxed);
+        edge.packed_prior.store(priors.empty() ? equal : pack_prior(priors[i]), relaxed);
     }
     parent.stage.store(Stage::expanded, std::memory_order_release);
     return true;
 }
 
 void Tree::back_up(const Path& path, float value, float draws) {
-    constexpr auto relaxed = std::memory_order_relaxed;
     auto amount = fixed_point(value);
     const float square = value * value;
     for (auto id = path.rbegin(); id != path.rend(); ++id) {
@@ -190,7 +188,7 @@ void Tree::add_amaf(NodeId id, std::span<const std::int8_t> firsts, int mover, f
 }
 
 void Tree::withdraw(const Path& path) {
-    for (const NodeId id : path) node(id).in_flight.fetch_sub(1, std::memory_order_relaxed);
+    for (const NodeId id : path) node(id).in_flight.fetch_sub(1, relaxed);
 }
 
 void Tree::flip() {
@@ -218,11 +216,10 @@ void Tree::set_priors(NodeId id, std::span<const float> priors) {
     const auto edges = edge_span(node(id));
     assert(priors.size() == edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i)
-        edges[i].packed_prior.store(pack_prior(priors[i]), std::memory_order_relaxed);
+        edges[i].packed_prior.store(pack_prior(priors[i]), relaxed);
 }
 
 void Tree::add_network_value(const Path& path, float value) {
-    constexpr auto relaxed = std::memory_order_relaxed;
     auto amount = fixed_point(value);
     for (auto id = path.rbegin(); id != path.rend(); ++id) {
         amount = -amount;
@@ -245,8 +242,8 @@ bool Tree::advance(engine::Move move) {
 
 NodeId Tree::allocate(std::size_t units, std::size_t reserve) {
     // Checked first, so that the counter, once past the end, does not run away.
-    if (next_.load(std::memory_order_relaxed) + units + reserve > end_) return no_node;
-    const auto first = next_.fetch_add(units, std::memory_order_relaxed);
+    if (next_.load(relaxed) + units + reserve > end_) return no_node;
+    const auto first = next_.fetch_add(units, relaxed);
     return first + units + reserve > end_ ? no_node : static_cast<NodeId>(first);
 }
 
@@ -264,10 +261,10 @@ NodeId Tree::copy(NodeId passive, std::size_t reserve) {
     for (std::size_t i = 0; i < old_edges.size(); ++i) {
         Edge& edge = *new (&new_edges[i]) Edge;
         edge.move = old_edges[i].move;
-        edge.packed_prior.store(old_edges[i].packed_prior, std::memory_order_relaxed);
+        edge.packed_prior.store(old_edges[i].packed_prior, relaxed);
         edge.amaf.copy(old_edges[i].amaf);
         const NodeId kept = child(passive, old_edges[i]);
-        edge.child.store(kept, std::memory_order_relaxed);
+        edge.child.store(kept, relaxed);
         if (kept != old_edges[i].child) to.in_order = 0;
     }
     return id;

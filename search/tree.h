@@ -20,6 +20,7 @@
 
 #include "engine/game.h"
 #include "search/memory.h"
+#include "search/relaxed.h"
 
 namespace search {
 
@@ -36,7 +37,6 @@ class SmallMean {
     void copy(const SmallMean& other) { packed_.store(other.packed_.load(relaxed), relaxed); }
 
    private:
-    static constexpr auto relaxed = std::memory_order_relaxed;
     static constexpr float most = 65535;
     std::atomic<std::uint16_t> packed_ = 0;
 };
@@ -61,12 +61,11 @@ inline float unpack_prior(std::uint16_t packed) {
 class AmafCount {
    public:
     void add(float value);  // as the mover sees it
-    std::uint32_t visits() const { return packed_.load(std::memory_order_relaxed) >> 16; }
+    std::uint32_t visits() const { return packed_.load(relaxed) >> 16; }
     float mean() const;  // 0 without visits
     void copy(const AmafCount& other) { packed_.store(other.packed_.load(), relaxed); }
 
    private:
-    static constexpr auto relaxed = std::memory_order_relaxed;
     static constexpr std::uint32_t most_visits = 30000;
     std::atomic<std::uint32_t> packed_ = 0;  // visits above, twice the wins below
 };
@@ -77,7 +76,7 @@ struct Edge {
     std::atomic<std::uint16_t> packed_prior = 0;
     AmafCount amaf;
 
-    float prior() const { return unpack_prior(packed_prior.load(std::memory_order_relaxed)); }
+    float prior() const { return unpack_prior(packed_prior.load(relaxed)); }
 };
 static_assert(sizeof(Edge) <= 12);
 
@@ -102,22 +101,22 @@ struct Node {
     SmallMean squares;                     // of the values
     SmallMean draws;                       // how likely a draw was said to be
 
-    bool decided() const { return decides(ending.load(std::memory_order_relaxed)); }
+    bool decided() const { return decides(ending.load(relaxed)); }
     static bool decides(Ending ending) { return ending > Ending::none; }
     bool expanded() const { return stage.load(std::memory_order_acquire) == Stage::expanded; }
     // Mean value over the finished visits and `losses` more, each counted as lost; 0 without any.
     float mean(double losses = 0) const {
-        const double n = visits.load(std::memory_order_relaxed) + losses;
+        const double n = visits.load(relaxed) + losses;
         if (n == 0) return 0;
-        const auto sum = static_cast<double>(value_sum.load(std::memory_order_relaxed));
+        const auto sum = static_cast<double>(value_sum.load(relaxed));
         return static_cast<float>((sum / value_unit - losses) / n);
     }
     // AlphaGo's: lambda times the above and the rest the mean of what networks said; one of them
     // alone where the other is not known yet.
     float blended(float lambda, double losses = 0) const {
-        const auto said = network_visits.load(std::memory_order_relaxed);
+        const auto said = network_visits.load(relaxed);
         if (said == 0) return mean(losses);
-        const auto sum = static_cast<double>(network_sum.load(std::memory_order_relaxed));
+        const auto sum = static_cast<double>(network_sum.load(relaxed));
         const auto value = static_cast<float>(sum / value_unit / said);
         return lambda * mean(losses) + (1 - lambda) * value;
     }
@@ -151,7 +150,7 @@ class Tree {
 
     // The descent: enter_root(), then of an expanded node's edges(), enter(), to a leaf.
     std::span<Edge> edges_to_enter(NodeId id) { return edge_span(node(id)); }
-    void enter_root() { node(root_).in_flight.fetch_add(1, std::memory_order_relaxed); }
+    void enter_root() { node(root_).in_flight.fetch_add(1, relaxed); }
     // Makes the node on the first visit. no_node: full, withdraw and flip.
     NodeId enter(Edge& edge);
 

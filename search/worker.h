@@ -14,6 +14,7 @@
 #include "search/gumbel.h"
 #include "search/limits.h"
 #include "search/meeting.h"
+#include "search/relaxed.h"
 #include "search/tree_search.h"
 
 namespace search {
@@ -40,9 +41,9 @@ class Worker {
     explicit Worker(std::unique_ptr<LeafEvaluator<G>> evaluator, int batch = 1)
         : evaluator_(std::move(evaluator)), leaves_(static_cast<std::size_t>(batch)) {}
 
-    std::uint64_t simulations() const { return simulations_.load(std::memory_order_relaxed); }
-    std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
-    std::uint64_t deepest() const { return deepest_.load(std::memory_order_relaxed); }
+    std::uint64_t simulations() const { return simulations_.load(relaxed); }
+    std::uint64_t steps() const { return steps_.load(relaxed); }
+    std::uint64_t deepest() const { return deepest_.load(relaxed); }
     OwnerTally* tally() { return evaluator_->tally(); }
 
     void warm_up(const G& game) { evaluator_->warm_up(game, static_cast<int>(leaves_.size())); }
@@ -74,20 +75,19 @@ class Worker {
 
     // However short the think, there must be moves to choose from.
     static bool told_to_stop(const TreeSearch<G>& search, const Team& team) {
-        return team.stop.load(std::memory_order_relaxed) &&
-               search.tree()[search.tree().root()].expanded();
+        return team.stop.load(relaxed) && search.tree()[search.tree().root()].expanded();
     }
 
     // The game is over at the root, or the visit counts are about to run out of bits.
     static bool exhausted(const TreeSearch<G>& search) {
         constexpr std::uint32_t most_visits = 0xfff00000;
         const Node& root = search.tree()[search.tree().root()];
-        return root.decided() || root.visits.load(std::memory_order_relaxed) > most_visits;
+        return root.decided() || root.visits.load(relaxed) > most_visits;
     }
 
     static bool take_turn(const TreeSearch<G>& search, Team& team) {
-        const auto turn = team.started.fetch_add(1, std::memory_order_relaxed);
-        const auto limit = team.limit.load(std::memory_order_relaxed);
+        const auto turn = team.started.fetch_add(1, relaxed);
+        const auto limit = team.limit.load(relaxed);
         if (turn >= limit) return false;
         const bool check = team.early_end && limit != Team::endless && turn % team.check_every == 0;
         return !check || turn == 0 ||
@@ -146,7 +146,6 @@ class Worker {
     }
 
     bool count(const Leaf<G>& leaf) {
-        constexpr auto relaxed = std::memory_order_relaxed;
         const auto length = leaf.path.size() - 1;
         simulations_.store(simulations() + 1, relaxed);
         steps_.store(steps() + length, relaxed);

@@ -10,7 +10,6 @@ namespace selfplay {
 namespace {
 
 using engine::Outcome;
-using engine::Player;
 
 constexpr std::array<std::string_view, 4> outcome_names{"ongoing", "draw", "first", "second"};
 
@@ -33,8 +32,8 @@ bool GameRecord::by_fault() const {
     return std::find(faults.begin(), faults.end(), reason) != faults.end();
 }
 
-const std::string& GameRecord::name_of(Player player) const {
-    return names[static_cast<std::size_t>(player == Player::first ? first : 1 - first)];
+const std::string& GameRecord::name_of(engine::Player player) const {
+    return names[static_cast<std::size_t>(player == engine::Player::first ? first : 1 - first)];
 }
 
 std::string to_json(const GameRecord& record) {

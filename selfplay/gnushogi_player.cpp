@@ -14,7 +14,7 @@ namespace {
 
 // The move in "12. ... 3a3b 299590"; empty when the line is another, such as the echo of a move
 // that was put in ("12. 7g7f 299700").
-std::string move_in(const std::string& line) {
+std::string gnushogi_move(const std::string& line) {
     std::istringstream words(line);
     std::string number, dots, move;
     if (words >> number >> dots >> move && dots == "...") return move;
@@ -68,7 +68,7 @@ Answer GnushogiPlayer::think(engine::Player mover, const Clocks& clocks, Deadlin
     Answer answer;
     while (answer.move.empty()) {
         const auto line = process_.read_line(deadline);
-        answer.move = move_in(line);
+        answer.move = gnushogi_move(line);
         if (answer.move.empty() && line.find("Resigns") != line.npos) {
             answer.kind = Answer::Kind::resign;
             return answer;

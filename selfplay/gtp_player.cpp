@@ -18,7 +18,7 @@ using search::TimeControl;
 char colour(engine::Player player) { return player == engine::Player::first ? 'b' : 'w'; }
 
 // Whole seconds, as GTP wants them; never more than there are.
-long long seconds(Milliseconds time) { return time.count() <= 0 ? 0 : time.count() / 1000; }
+long long whole_seconds(Milliseconds time) { return time.count() <= 0 ? 0 : time.count() / 1000; }
 
 // Seconds with their fraction, where an extension takes them.
 std::string exact_seconds(Milliseconds time) {
@@ -108,13 +108,14 @@ std::string GtpPlayer::time_command(const TimeControl& time) const {
         return fmt::format("kata-time_settings fischer {} {}", exact_seconds(time.main),
                            exact_seconds(time.increment));
     if (time.periods > 0 && time.period_moves == 1 && time.periods > 1) {
-        const auto japanese =
-            fmt::format("byoyomi {} {} {}", seconds(time.main), seconds(time.period), time.periods);
+        const auto japanese = fmt::format("byoyomi {} {} {}", whole_seconds(time.main),
+                                          whole_seconds(time.period), time.periods);
         if (knows("kata-time_settings")) return "kata-time_settings " + japanese;
         if (knows("kgs-time_settings")) return "kgs-time_settings " + japanese;
     }
     const int stones = time.periods > 0 ? time.period_moves : 0;
-    return fmt::format("time_settings {} {} {}", seconds(time.main), seconds(time.period), stones);
+    return fmt::format("time_settings {} {} {}", whole_seconds(time.main),
+                       whole_seconds(time.period), stones);
 }
 
 void GtpPlayer::set_time(const TimeControl& time, Deadline deadline) {
@@ -142,7 +143,7 @@ void GtpPlayer::tell_time(engine::Player player, const search::TimeLeft& left, D
     const bool japanese = left.control.period_moves == 1;
     const int stones = !overtime ? 0 : japanese ? left.periods : left.moves;
     demand(fmt::format("time_left {} {} {}", colour(player),
-                       seconds(overtime ? left.period : left.main), stones),
+                       whole_seconds(overtime ? left.period : left.main), stones),
            deadline);
 }
 

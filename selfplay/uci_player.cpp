@@ -25,7 +25,7 @@ Milliseconds main_of(const TimeLeft& left, bool byoyomi) {
 }
 
 // The judgement in an "info" line, if it holds one: mates count as more than any position.
-std::optional<int> score_in(const std::string& line) {
+std::optional<int> info_score(const std::string& line) {
     constexpr int mate = 100000;
     std::istringstream words(line);
     std::string word, kind, value;
@@ -143,7 +143,7 @@ Answer UciPlayer::read_answer(Deadline deadline) {
         std::string word;
         words >> word;
         if (word == "info") {
-            if (const auto score = score_in(line)) answer.centipawns = score;
+            if (const auto score = info_score(line)) answer.centipawns = score;
         } else if (word == "bestmove") {
             words >> answer.move;
             if (answer.move == "resign") answer.kind = Answer::Kind::resign;

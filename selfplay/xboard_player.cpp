@@ -35,7 +35,7 @@ std::string plain_move(std::string text) {
 }
 
 // The move in "move e2e4", "My move is : e2e4" or "1. ... e2e4"; empty when the line holds none.
-std::string move_in(const std::string& line) {
+std::string xboard_move(const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> list;
     for (std::string word; words >> word;) list.push_back(word);
@@ -54,7 +54,7 @@ std::optional<engine::Outcome> claim_in(const std::string& line) {
 }
 
 // Score in a line of thinking: "ply score time nodes variation".
-std::optional<int> score_in(const std::string& line) {
+std::optional<int> thinking_score(const std::string& line) {
     std::istringstream numbers(line);
     int ply = 0, score = 0;
     long long time = 0, nodes = 0;
@@ -181,11 +181,11 @@ Answer XboardPlayer::read_answer(engine::Player mover, Deadline deadline) {
     Answer answer;
     for (;;) {
         const auto line = process_.read_line(deadline);
-        if (auto move = move_in(line); !move.empty()) {
+        if (auto move = xboard_move(line); !move.empty()) {
             answer.move = std::move(move);
             return answer;
         }
-        if (const auto score = score_in(line)) answer.centipawns = score;
+        if (const auto score = thinking_score(line)) answer.centipawns = score;
         const auto claim = claim_in(line);
         if (line == "resign" || begins(line, "tellics resign") ||
             claim == engine::win_for(~mover)) {

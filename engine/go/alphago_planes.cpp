@@ -10,9 +10,9 @@ namespace go {
 
 namespace {
 
-class Writer {
+class AlphaGoWriter {
    public:
-    Writer(const Go& game, std::span<float> planes)
+    AlphaGoWriter(const Go& game, std::span<float> planes)
         : game_(game),
           board_(game.board()),
           mover_(colour_of(game.to_play())),
@@ -140,7 +140,7 @@ class Writer {
 
 template <bool with_colour>
 void write(const Go& game, std::span<float> planes, std::span<float>) {
-    Writer(game, planes).run(with_colour);
+    AlphaGoWriter(game, planes).run(with_colour);
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ engine::EncodingShape shape(const Go& game) {
     return {plane_count, size, size, global_count, size * size + 1, 8};
 }
 
-class Writer {
+class KatagoWriter {
    public:
-    Writer(const Go& game, std::span<float> planes, std::span<float> globals)
+    KatagoWriter(const Go& game, std::span<float> planes, std::span<float> globals)
         : game_(game), planes_(planes), globals_(globals), size_(game.size()) {
         std::fill(planes.begin(), planes.end(), 0.0f);
         std::fill(globals.begin(), globals.end(), 0.0f);
@@ -204,7 +204,7 @@ class Writer {
 };
 
 void write(const Go& game, std::span<float> planes, std::span<float> globals) {
-    Writer(game, planes, globals).write();
+    KatagoWriter(game, planes, globals).write();
 }
 
 int policy_index(const Go& game, Move move) {

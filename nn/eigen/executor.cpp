@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "nn/index.h"
 #include "nn/passes.h"
 #include "nn/plan.h"
 
@@ -15,8 +16,6 @@ using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 using MatrixView = Eigen::Map<const Matrix>;
 using MutableView = Eigen::Map<Matrix>;
 using VectorView = Eigen::Map<const Eigen::VectorXf>;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 VectorView vector_of(const Tensor& tensor) {
     return {tensor.values.data(), static_cast<Eigen::Index>(tensor.values.size())};

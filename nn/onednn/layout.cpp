@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nn/index.h"
+
 namespace nn::onednn {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Dense layers smaller than this cost the library more to call than to compute.
 constexpr std::size_t small_layer = 40000;

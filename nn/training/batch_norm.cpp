@@ -15,19 +15,13 @@ struct Moments {
     double mean = 0, variance = 0;
 };
 
-// Calls visit(row of x, row of y's gradient or value) for one channel of every sample.
-template <class Visit>
-void for_samples(const Tape& tape, Visit visit) {
-    for (int i = 0; i < tape.size; ++i) visit(i);
-}
-
 Moments moments_of(Tape& tape, int x, int channel) {
     Moments moments;
     const double count = double{1} * tape.size * tape.points(x);
-    for_samples(tape, [&](int i) {
+    tape.for_samples([&](int i) {
         moments.mean += tape.sample(x, i).row(channel).cast<double>().sum() / count;
     });
-    for_samples(tape, [&](int i) {
+    tape.for_samples([&](int i) {
         const auto row = tape.sample(x, i).row(channel).cast<double>().array();
         moments.variance += (row - moments.mean).square().sum() / count;
     });
@@ -54,7 +48,7 @@ void forward(Tape& tape, int n) {
         kept[2 * at(c)] = static_cast<float>(moments.mean);
         kept[2 * at(c) + 1] = static_cast<float>(inverse);
         const float factor = tape.weight(n, scale)(c, 0) * kept[2 * at(c) + 1];
-        for_samples(tape, [&](int i) {
+        tape.for_samples([&](int i) {
             tape.sample(n, i).row(c) =
                 (tape.sample(x, i).row(c).array() - kept[2 * at(c)]) * factor +
                 tape.weight(n, shift)(c, 0);
@@ -74,7 +68,7 @@ void backward(Tape& tape, int n) {
         };
         const auto gradient = [&](int i) { return tape.sample_gradient(n, i).row(c).array(); };
         double sum = 0, product = 0;
-        for_samples(tape, [&](int i) {
+        tape.for_samples([&](int i) {
             sum += gradient(i).sum();
             product += (gradient(i) * normal(i)).sum();
         });
@@ -83,7 +77,7 @@ void backward(Tape& tape, int n) {
         if (!tape.wants_gradient(x)) continue;
         const float mean_gradient = static_cast<float>(sum) / count;
         const float mean_product = static_cast<float>(product) / count;
-        for_samples(tape, [&](int i) {
+        tape.for_samples([&](int i) {
             tape.sample_gradient(x, i).row(c).array() +=
                 tape.weight(n, scale)(c, 0) * inverse *
                 (gradient(i) - mean_gradient - normal(i) * mean_product);

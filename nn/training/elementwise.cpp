@@ -7,15 +7,10 @@ namespace nn::training {
 
 namespace {
 
-template <class Visit>
-void for_samples(const Tape& tape, Visit visit) {
-    for (int i = 0; i < tape.size; ++i) visit(i);
-}
-
 // --- affine: y = scale x + shift
 
 void affine_forward(Tape& tape, int n) {
-    for_samples(tape, [&](int i) {
+    tape.for_samples([&](int i) {
         const auto x = tape.sample(tape.input(n, 0), i).array();
         tape.sample(n, i) = (x.colwise() * tape.weight(n, 0).col(0).array()).colwise() +
                             tape.weight(n, 1).col(0).array();
@@ -24,7 +19,7 @@ void affine_forward(Tape& tape, int n) {
 
 void affine_backward(Tape& tape, int n) {
     const int x = tape.input(n, 0);
-    for_samples(tape, [&](int i) {
+    tape.for_samples([&](int i) {
         const auto gradient = tape.sample_gradient(n, i).array();
         tape.weight_gradient(n, 0).array() +=
             (gradient * tape.sample(x, i).array()).rowwise().sum();
@@ -94,7 +89,7 @@ void add_backward(Tape& tape, int n) {
 // --- add_vector: y = x + v at every point
 
 void add_vector_forward(Tape& tape, int n) {
-    for_samples(tape, [&](int i) {
+    tape.for_samples([&](int i) {
         tape.sample(n, i) =
             tape.sample(tape.input(n, 0), i).colwise() + tape.sample(tape.input(n, 1), i).col(0);
     });
@@ -104,22 +99,20 @@ void add_vector_backward(Tape& tape, int n) {
     const int x = tape.input(n, 0), v = tape.input(n, 1);
     if (tape.wants_gradient(x)) tape.sample_gradients(x) += tape.sample_gradients(n);
     if (!tape.wants_gradient(v)) return;
-    for_samples(tape, [&](int i) {
-        tape.sample_gradient(v, i) += tape.sample_gradient(n, i).rowwise().sum();
-    });
+    tape.for_samples(
+        [&](int i) { tape.sample_gradient(v, i) += tape.sample_gradient(n, i).rowwise().sum(); });
 }
 
 // --- point_bias: y = x + a bias for every channel and point
 
 void point_bias_forward(Tape& tape, int n) {
-    for_samples(tape, [&](int i) {
-        tape.sample(n, i) = tape.sample(tape.input(n, 0), i) + tape.weight(n, 0);
-    });
+    tape.for_samples(
+        [&](int i) { tape.sample(n, i) = tape.sample(tape.input(n, 0), i) + tape.weight(n, 0); });
 }
 
 void point_bias_backward(Tape& tape, int n) {
     const int x = tape.input(n, 0);
-    for_samples(tape, [&](int i) { tape.weight_gradient(n, 0) += tape.sample_gradient(n, i); });
+    tape.for_samples([&](int i) { tape.weight_gradient(n, 0) += tape.sample_gradient(n, i); });
     if (tape.wants_gradient(x)) tape.sample_gradients(x) += tape.sample_gradients(n);
 }
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "nn/index.h"
+
 namespace nn::training {
 
 namespace {
 
 using Numbers = std::span<const float>;
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // One sample's cost; `gradient` gets that of the loss alone.
 struct Sample {
@@ -152,7 +152,7 @@ Sample sample_of(Loss loss, const Target& target, int index, Numbers answer,
     return sample;
 }
 
-void scale(Cost& cost, double factor) {
+void weigh(Cost& cost, double factor) {
     cost.weight = std::abs(factor);
     cost.loss *= factor;
     cost.hits *= std::abs(factor);
@@ -192,7 +192,7 @@ Cost measure(Loss loss, std::span<const float> answers, const Target& target, Sh
                       gradients.subspan(at(i) * width, width));
         const float weight = target.weights.empty() ? 1 : target.weights[at(share.first + i)];
         auto cost = weight == 0 ? Cost{} : cost_of(loss, sample);
-        scale(cost, weight);
+        weigh(cost, weight);
         sum += cost;
         for (auto& x : sample.gradient) x = weight == 0 ? 0 : x * weight * share.factor;
     }

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cassert>
 
+#include "nn/index.h"
+
 namespace nn::training {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 Role role_of(Operation operation, int weight) {
     if (operation == Operation::batch_norm && weight < 2) return Role::statistic;

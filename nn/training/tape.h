@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nn/graph.h"
+#include "nn/index.h"
 #include "nn/training/parameters.h"
 
 namespace nn::training {
@@ -17,8 +18,6 @@ namespace nn::training {
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Rows = Eigen::Map<Matrix>;
 using ConstRows = Eigen::Map<const Matrix>;
-
-inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 struct Tape {
     Tape(const Graph& unfused, const Parameters& layout, int batch, int side);
@@ -53,6 +52,12 @@ struct Tape {
     // A weight as a matrix of as many rows as its first side has.
     ConstRows weight(int n, int w) const;
     Rows weight_gradient(int n, int w) const;
+
+    // visit(i) for every sample.
+    template <class Visit>
+    void for_samples(Visit visit) const {
+        for (int i = 0; i < size; ++i) visit(i);
+    }
 
    private:
     Rows all_of(std::vector<std::vector<float>>& store, int n) {

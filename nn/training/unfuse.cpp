@@ -3,12 +3,11 @@
 #include <utility>
 
 #include "nn/compose.h"
+#include "nn/index.h"
 
 namespace nn::training {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // How many inputs an operation has without a residual; of those that may carry one.
 std::size_t own_inputs(const Node& node) {

@@ -1,12 +1,11 @@
 #include <bit>
 
+#include "nn/index.h"
 #include "nn/winograd/steps.h"
 
 namespace nn::winograd {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Words of 64 bits that hold a plane.
 std::size_t words_of(int points) { return (at(points) + 63) / 64; }

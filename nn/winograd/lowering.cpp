@@ -3,14 +3,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "nn/index.h"
 #include "nn/winograd/roles.h"
 #include "nn/winograd/storage.h"
 
 namespace nn::winograd {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Calibration sees few positions: values may grow to this multiple before they are clipped.
 constexpr float headroom = 1.5f;

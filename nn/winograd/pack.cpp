@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nn/index.h"
+
 namespace nn::winograd {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // One 3x3 kernel seen from a cell of the tile: (G g G^T) there.
 double kernel_at(const Tiling& tiling, int cell, const float* g) {

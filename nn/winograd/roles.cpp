@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "nn/index.h"
+
 namespace nn::winograd {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 class Roles {
    public:

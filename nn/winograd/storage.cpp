@@ -1,14 +1,9 @@
 #include "nn/winograd/storage.h"
 
+#include "nn/index.h"
 #include "nn/winograd/pack.h"
 
 namespace nn::winograd {
-
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
 
 Storage::Storage(const Graph& graph, const std::vector<Shape>& shapes,
                  const std::vector<Role>& roles, Layout& layout)

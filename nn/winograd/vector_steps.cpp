@@ -1,12 +1,7 @@
+#include "nn/index.h"
 #include "nn/winograd/steps.h"
 
 namespace nn::winograd {
-
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
 
 void PoolStep::run(Workspace& space) const {
     const int points = space.layout.points(), stride = padded(channels_);

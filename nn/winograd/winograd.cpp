@@ -1,13 +1,12 @@
 #include "nn/winograd/winograd.h"
 
 #include "engine/base/error.h"
+#include "nn/index.h"
 #include "nn/winograd/lowering.h"
 
 namespace nn::winograd {
 
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 constexpr int least_board = 2, most_board = 32;
 

@@ -9,7 +9,7 @@ namespace selfplay::alphago {
 
 namespace {
 
-using Player = search::PolicyPlayer<go::Go>;
+using PolicyMover = search::PolicyPlayer<go::Go>;
 
 Playing begun(const training::ActorSettings& settings, int number, std::uint64_t seed) {
     engine::Random random(seed);
@@ -53,7 +53,7 @@ class Table {
         for (auto& playing : games)
             if (!is_over(playing)) movers[place_of(plan_.policy_of(playing))].push_back(&playing);
         for (auto* playing : movers[0]) {
-            const auto moves = Player::sensible(playing->game);
+            const auto moves = PolicyMover::sensible(playing->game);
             move(*playing, moves[random.below(moves.size())]);
         }
         for (std::size_t i = 0; i < players_.size(); ++i) draw(movers[i + 1], players_[i], random);
@@ -61,7 +61,7 @@ class Table {
                            [](const auto& list) { return !list.empty(); });
     }
 
-    void draw(const std::vector<Playing*>& games, Player& player, engine::Random& random) {
+    void draw(const std::vector<Playing*>& games, PolicyMover& player, engine::Random& random) {
         std::vector<const go::Go*> positions;
         positions.reserve(games.size());
         for (const auto* playing : games) positions.push_back(&playing->game);
@@ -80,7 +80,7 @@ class Table {
 
     const training::ActorSettings& settings_;
     const Plan& plan_;
-    std::vector<Player> players_;
+    std::vector<PolicyMover> players_;
 };
 
 }  // namespace

@@ -12,8 +12,7 @@
 #include "nn/eigen/executor.h"
 #include "random_positions.h"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__clang__)
+#if defined(__GLIBC__) && !defined(SANBAN_SANITIZED) && !defined(__clang__)
 
 namespace {
 

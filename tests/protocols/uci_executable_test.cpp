@@ -50,7 +50,7 @@ std::string talk(const std::string& protocol, const std::string& lines) {
 
 // In processor time, as others run beside the tests; the shell in between counts too. A sanitizer
 // takes longer than that to start by itself.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(SANBAN_SANITIZED)
 TEST(UciExecutable, TheGreetingIsPrompt) {
     for (const std::string protocol : {"uci", "usi"}) {
         double least = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "nn/index.h"
 #include "nn/onednn/library.h"
 #include "nn/training/onednn/tile_loops_body.h"
 
@@ -15,8 +16,6 @@ struct Portable {
     using Vector = float __attribute__((vector_size(16)));
     static constexpr int most = 3;
 };
-
-std::size_t at(Index index) { return static_cast<std::size_t>(index); }
 
 // In a kernel, of the number that channel `in` gives channel `out`.
 std::size_t place_of(const TileShape& shape, Index in, Index out, Index place) {
