@@ -49,7 +49,7 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }  // namespace
 
 Milliseconds move_within(Milliseconds period, Milliseconds lag) {
-    const Milliseconds fewest = std::min(period / 10, Milliseconds(100));
+    const Milliseconds fewest = std::min(period / 5, Milliseconds(200));
     const auto reserve = std::max(lag, std::clamp(period / 20, fewest, Milliseconds(300)));
     return std::max(period - std::min(reserve, period / 2), least);
 }
