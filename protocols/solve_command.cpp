@@ -19,6 +19,7 @@
 #include "engine/shogi/problem.h"
 #include "protocols/commands.h"
 #include "protocols/flags.h"
+#include "search/load_player.h"
 #include "search/mate.h"
 #include "search/searcher.h"
 
@@ -28,6 +29,7 @@ namespace {
 
 struct SolveFlags {
     search::SearchParams params;
+    NetworkFlags network;
     std::string file;
     std::optional<double> seconds;
     std::optional<std::uint64_t> simulations, nodes;
@@ -144,6 +146,17 @@ class Solver {
                 "no mate", ""};
     }
 
+    // As front ends do: the network that was named, or the one that this program carries.
+    void take_network(const G& game) {
+        auto network = flags_.network;
+        choose_weights(network, flags_.params, G::name);
+        check_method(flags_.params, network);
+        if (network.weights.empty()) return;
+        searcher_->set_position(game);
+        searcher_->set_network(search::load_player(network.weights, network.precision, game));
+        searcher_->warm_up();
+    }
+
     template <class Problem>
     Verdict find_move(const Problem& problem) {
         // Made once it is needed: mates need no tree.
@@ -151,6 +164,7 @@ class Solver {
             auto params = flags_.params;
             params.memory_mib -= search::mate_mebibytes(params.memory_mib);
             searcher_ = std::make_unique<search::Searcher<G>>(params);
+            take_network(problem.game);
         }
         searcher_->set_position(problem.game);
         searcher_->clear();
@@ -238,6 +252,7 @@ int run_solve(Arguments arguments) {
         "--mate", flags.mate, "every problem is a mate in at most so many plies of both players");
     app.add_option("--no-mate", flags.no_mate, "no problem has a mate in so many plies")
         ->excludes(mate);
+    add_network_flags(app, flags.network);
     add_search_flags(app, flags.params);
     if (const auto status = parse_flags(app, arguments)) return *status;
     const auto lines = lines_of(flags.file);

@@ -33,14 +33,24 @@ Allotment of_main_time(const TimeLeft& left, int moves_left, Milliseconds lag) {
     return within(soft, moves == 1 ? soft : 3 * soft, most);
 }
 
+// The time of a move within its period; `part` of that is kept back at least.
+Milliseconds move_within(Milliseconds period, Milliseconds lag, int part) {
+    const Milliseconds fewest = std::min(period / part, Milliseconds(1000 / part));
+    const auto reserve = std::max(lag, std::clamp(period / 20, fewest, Milliseconds(300)));
+    return std::max(period - std::min(reserve, period / 2), least);
+}
+
 Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
     if (moves == 1) {
-        const auto now = move_within(left.period, lag);
-        // A spare period may go on a hard move; the last may not.
-        const auto spare =
-            left.periods > 1 && left.control.period_moves == 1 ? left.control.period : none;
-        return within(now, now + spare, now + spare);
+        // A spare period may go on a hard move, or on a moment too much; the last may not.
+        if (left.periods > 1 && left.control.period_moves == 1) {
+            const auto now = move_within(left.period, lag, 10);
+            const auto most = left.control.period + search::move_within(left.period, lag);
+            return within(now, most, most);
+        }
+        const auto now = search::move_within(left.period, lag);
+        return within(now, now, now);
     }
     const auto soft = left.period / moves - lag;
     return within(soft, 3 * soft, left.period - lag - (moves - 1) * std::max(soft / 2, lag));
@@ -49,9 +59,7 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }  // namespace
 
 Milliseconds move_within(Milliseconds period, Milliseconds lag) {
-    const Milliseconds fewest = std::min(period / 5, Milliseconds(200));
-    const auto reserve = std::max(lag, std::clamp(period / 20, fewest, Milliseconds(300)));
-    return std::max(period - std::min(reserve, period / 2), least);
+    return move_within(period, lag, 5);
 }
 
 TimeLeft TimeLeft::start_of(const TimeControl& control) {

@@ -34,8 +34,9 @@ bool settled(const Standing& standing, std::uint64_t remaining);
 // which the move is drawn from them.
 std::uint64_t simulations_of_level(int level);
 float temperature_of_level(int level);
-// Ratings for GUIs that know no levels: the strongest means full strength.
-inline constexpr int weakest_elo = 800, strongest_elo = 2800;
+// Ratings for GUIs that know no levels: the strongest means full strength. On the scale of
+// Stockfish's UCI_Elo, found by matches of maia-1900 (README); other networks differ.
+inline constexpr int weakest_elo = 1300, strongest_elo = 2900;
 int level_of_elo(int elo);
 
 // The times of one think, from the moment on when its limits took effect.

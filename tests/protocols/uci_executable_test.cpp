@@ -134,6 +134,8 @@ TEST(UciExecutable, SolvesProblemsOfFiles) {
     EXPECT_EQ(output_of("solve --simulations 2000 --memory 16 " + chess),
               "passed back rank: a1a8\nfailed kings: no mate, not a mate\npassed 4: a1a8\n"
               "2 passed, 1 failed\n");
+    EXPECT_TRUE(has(output_of("solve --weights absent.safetensors --memory 16 " + chess + " 2>&1"),
+                    "absent.safetensors"));
     const auto shogi = (folder.path() / "mates.sfen").string();
     std::ofstream(shogi) << "sfen 4k4/9/4P4/9/9/9/9/9/9 b G2r2b3g4s4n4l17p 1\n"
                             "4k4/9/4P4/9/9/9/9/9/9 b G2r2b3g4s4n4l17p bm G*5b; id \"gold\";\n";

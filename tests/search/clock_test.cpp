@@ -208,9 +208,9 @@ TEST(Allot, KeepsPartOfByoYomiBack) {
     const auto hard = [](Milliseconds period, Milliseconds lag) {
         return allot(TimeLeft::start_of(overtime(0s, period, 1, 1)), 30, lag)->hard;
     };
-    EXPECT_EQ(hard(1s, 20ms), 900ms);
-    EXPECT_EQ(hard(1s, 120ms), 880ms);
-    EXPECT_EQ(hard(200ms, 5ms), 180ms);
+    EXPECT_EQ(hard(1s, 20ms), 800ms);
+    EXPECT_EQ(hard(1s, 220ms), 780ms);
+    EXPECT_EQ(hard(200ms, 5ms), 160ms);
     EXPECT_EQ(hard(10s, 20ms), 9700ms);
 }
 
