@@ -10,7 +10,7 @@
 
 namespace nn::katago {
 
-constexpr int most_channels = 1 << 14;  // of any layer
+inline constexpr int most_channels = 1 << 14;  // of any layer
 
 class Reader {
    public:

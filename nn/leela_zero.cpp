@@ -13,7 +13,7 @@ namespace {
 using engine::fail;
 
 constexpr int leela_planes = 18;
-constexpr std::size_t leela_channels = 1 << 12, most_lines = 4000;
+constexpr std::size_t most_leela_channels = 1 << 12, most_lines = 4000;
 
 using Line = std::vector<float>;
 
@@ -70,8 +70,8 @@ class LeelaZeroImporter {
             fail("expected {} lines and {} for each block, found {}", heads, per_block,
                  lines_.size());
         const auto channels = lines_[2].size();
-        if (channels == 0 || channels > leela_channels)
-            fail("expected 1 to {} channels, found {}", leela_channels, channels);
+        if (channels == 0 || channels > most_leela_channels)
+            fail("expected 1 to {} channels, found {}", most_leela_channels, channels);
         channels_ = static_cast<int>(channels);
         if (lines_[1].size() != channels * leela_planes * 9)
             fail("expected {} weights for {} planes, found {} (a text network of lc0?)",
@@ -148,7 +148,7 @@ class LeelaZeroImporter {
 
     void value(int x) {
         const int planes = relu("value", normed("value", x, channels_, 1, 1));
-        const int width = static_cast<int>(std::min(lines_[next_ + 1].size(), leela_channels));
+        const int width = static_cast<int>(std::min(lines_[next_ + 1].size(), most_leela_channels));
         const int hidden = relu("value1", dense("value1", flat("value", planes), points(), width));
         name_output(graph_, "value",
                     add_activation(graph_, "value.tanh", dense("value2", hidden, width, 1),

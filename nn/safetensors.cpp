@@ -305,22 +305,22 @@ Calibration calibration_from_safetensors(std::string_view bytes, const Graph& gr
 
 std::string to_safetensors(const Graph& graph, const Extras& extras,
                            const Calibration& calibration) {
-    Members contents;
+    Members members;
     for (const auto& node : graph.nodes)
         for (std::size_t i = 0; i < node.weights.size(); ++i)
-            contents.add(fmt::format("{}.{}", node.name, weight_names(node.operation)[i]),
-                         node.weights[i].shape, node.weights[i].values);
-    contents.add_rows(extra_prefix, extras);
-    contents.add_rows(calibration_prefix, named_maxima(graph, calibration));
+            members.add(fmt::format("{}.{}", node.name, weight_names(node.operation)[i]),
+                        node.weights[i].shape, node.weights[i].values);
+    members.add_rows(extra_prefix, extras);
+    members.add_rows(calibration_prefix, named_maxima(graph, calibration));
     const auto description = description_of(graph);
-    contents.header["__metadata__"] = {{"sanban", description},
-                                       {"checksum", checksum_of(description, contents.data)},
-                                       {"format", "pt"}};
-    auto text = contents.header.dump();
+    members.header["__metadata__"] = {{"sanban", description},
+                                      {"checksum", checksum_of(description, members.data)},
+                                      {"format", "pt"}};
+    auto text = members.header.dump();
     text.resize((text.size() + 7) / 8 * 8, ' ');
     std::uint64_t size = text.size();
     std::string file(reinterpret_cast<const char*>(&size), sizeof size);
-    return file + text + contents.data;
+    return file + text + members.data;
 }
 
 }  // namespace nn

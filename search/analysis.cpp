@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "search/relaxed.h"
+
 namespace search {
 
 namespace {
 
 std::uint32_t visits_of(const Tree& tree, NodeId id) {
-    return id == no_node ? 0 : tree[id].visits.load(std::memory_order_relaxed);
+    return id == no_node ? 0 : tree[id].visits.load(relaxed);
 }
 
 struct Candidate {
@@ -31,7 +33,7 @@ Candidate candidate(const Tree& tree, const Edge& edge) {
     const NodeId id = tree.child(tree.root(), edge);
     if (id == no_node) return {&edge, id, 0, 0, Ending::unknown, 0};
     const Node& node = tree[id];
-    const auto ending = seen_before(node.ending.load(std::memory_order_relaxed));
+    const auto ending = seen_before(node.ending.load(relaxed));
     const float value = ending == Ending::win    ? 1.0f
                         : ending == Ending::loss ? -1.0f
                                                  : tree.value(node);
@@ -93,11 +95,9 @@ std::size_t best_by_bound(const Tree& tree, const std::vector<Candidate>& found)
 
 // Whether a player would rather move to `a` than to `b`.
 bool likelier(const Node& a, const Node& b) {
-    const auto ending = [](const Node& node) {
-        return seen_before(node.ending.load(std::memory_order_relaxed));
-    };
+    const auto ending = [](const Node& node) { return seen_before(node.ending.load(relaxed)); };
     if (const auto fate = happier(ending(a), a.plies, ending(b), b.plies)) return *fate;
-    return a.visits.load(std::memory_order_relaxed) > b.visits.load(std::memory_order_relaxed);
+    return a.visits.load(relaxed) > b.visits.load(relaxed);
 }
 
 void follow(const Tree& tree, NodeId node, int length, MoveAnalysis& to) {

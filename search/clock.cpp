@@ -7,6 +7,8 @@ namespace search {
 namespace {
 
 constexpr Milliseconds none{0}, least{1};
+// Of a short period, kept back: of the last, and of one with a spare behind it.
+constexpr double last_share = 0.2, spare_share = 0.1;
 
 // What one overtime period gives each of its moves.
 Milliseconds per_move(const TimeControl& control) {
@@ -33,9 +35,11 @@ Allotment of_main_time(const TimeLeft& left, int moves_left, Milliseconds lag) {
     return within(soft, moves == 1 ? soft : 3 * soft, most);
 }
 
-// The time of a move within its period; `part` of that is kept back at least.
-Milliseconds move_within(Milliseconds period, Milliseconds lag, int part) {
-    const Milliseconds fewest = std::min(period / part, Milliseconds(1000 / part));
+// The time of a move within its period; of a period of up to a second at least `share` is kept
+// back.
+Milliseconds within_period(Milliseconds period, Milliseconds lag, double share) {
+    using std::chrono::duration_cast;
+    const auto fewest = duration_cast<Milliseconds>(share * std::min(period, Milliseconds(1000)));
     const auto reserve = std::max(lag, std::clamp(period / 20, fewest, Milliseconds(300)));
     return std::max(period - std::min(reserve, period / 2), least);
 }
@@ -43,14 +47,11 @@ Milliseconds move_within(Milliseconds period, Milliseconds lag, int part) {
 Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
     if (moves == 1) {
+        const auto now = move_within(left.period, lag);
+        if (left.periods <= 1 || left.control.period_moves > 1) return within(now, now, now);
         // A spare period may go on a hard move, or on a moment too much; the last may not.
-        if (left.periods > 1 && left.control.period_moves == 1) {
-            const auto now = move_within(left.period, lag, 10);
-            const auto most = left.control.period + search::move_within(left.period, lag);
-            return within(now, most, most);
-        }
-        const auto now = search::move_within(left.period, lag);
-        return within(now, now, now);
+        const auto most = now + left.control.period;
+        return within(within_period(left.period, lag, spare_share), most, most);
     }
     const auto soft = left.period / moves - lag;
     return within(soft, 3 * soft, left.period - lag - (moves - 1) * std::max(soft / 2, lag));
@@ -59,7 +60,7 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }  // namespace
 
 Milliseconds move_within(Milliseconds period, Milliseconds lag) {
-    return move_within(period, lag, 5);
+    return within_period(period, lag, last_share);
 }
 
 TimeLeft TimeLeft::start_of(const TimeControl& control) {

@@ -19,6 +19,7 @@
 #include "engine/game.h"
 #include "search/clock.h"
 #include "search/mate_table.h"
+#include "search/relaxed.h"
 
 namespace search {
 
@@ -76,7 +77,7 @@ class Watch {
     using Clock = std::chrono::steady_clock;
     bool out_of_nodes() const;
     bool out_of_time() const;
-    bool stopped() const { return limits_.stop && limits_.stop->load(std::memory_order_relaxed); }
+    bool stopped() const { return limits_.stop && limits_.stop->load(relaxed); }
 
     const MateLimits& limits_;
     Clock::time_point start_ = Clock::now();

@@ -6,6 +6,8 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "search/relaxed.h"
+
 namespace search {
 
 class Meeting {
@@ -21,8 +23,8 @@ class Meeting {
         changed_.notify_all();
     }
 
-    void call() { called_.store(true, std::memory_order_relaxed); }
-    bool called() const { return called_.load(std::memory_order_relaxed); }
+    void call() { called_.store(true, relaxed); }
+    bool called() const { return called_.load(relaxed); }
 
     // Returns when the purpose has been served, by this thread or another.
     template <class Purpose>

@@ -17,6 +17,7 @@
 #include "search/move_filter.h"
 #include "search/noise.h"
 #include "search/params.h"
+#include "search/relaxed.h"
 #include "search/selection.h"
 
 namespace search {
@@ -222,7 +223,7 @@ class TreeSearch {
     bool descend(Leaf<G>& leaf, const SelectionRule& rule, std::optional<engine::Move> first) {
         const Node& root = tree_[tree_.root()];
         if constexpr (std::is_same_v<SelectionRule, Rave>)
-            return walk(leaf, rule.sized(root.visits.load(std::memory_order_relaxed)), first);
+            return walk(leaf, rule.sized(root.visits.load(relaxed)), first);
         else
             return walk(leaf, rule, first);
     }
@@ -245,7 +246,7 @@ class TreeSearch {
     }
 
     Gathered prepare(Leaf<G>& leaf, NodeId node, bool share) {
-        const auto visits = tree_[node].visits.load(std::memory_order_relaxed);
+        const auto visits = tree_[node].visits.load(relaxed);
         const bool due =
             node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(visits_to_expand());
         leaf.expands = due && tree_.claim(node);
@@ -265,7 +266,7 @@ class TreeSearch {
 
     Ending ending_of(const Leaf<G>& leaf) {
         const NodeId node = leaf.path.back();
-        auto ending = tree_[node].ending.load(std::memory_order_relaxed);
+        auto ending = tree_[node].ending.load(relaxed);
         if (ending != Ending::unknown) return ending;
         const auto outcome = leaf.game.outcome();
         ending = outcome == engine::Outcome::ongoing               ? Ending::none
