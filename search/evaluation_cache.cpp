@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "engine/encoding.h"
 #include "search/relaxed.h"
@@ -19,31 +19,17 @@ constexpr std::size_t fixed_words = 1 + (numbers + 1) / 2;  // sizes, then the n
 // Of the key, beside the sizes, so that most answers to other questions are seen to be so at once.
 constexpr std::uint64_t tag_bits = 0xffffffff00000000;
 
+// Words from the start: the numbers, then the priors, then the owners.
+constexpr std::size_t first_owner(std::size_t priors) { return fixed_words + (priors + 3) / 4; }
 constexpr std::size_t words_for(std::size_t priors, std::size_t owners) {
-    return fixed_words + (priors + 3) / 4 + (owners + 7) / 8;
+    return first_owner(priors) + (owners + 7) / 8;
 }
+using Shares = std::array<std::uint16_t, 4 * EvaluationCache::most_words>;
+using Points = std::array<std::int8_t, 8 * EvaluationCache::most_words>;
 
-// Items of `bits` bits each, packed into words.
-class Packer {
-   public:
-    explicit Packer(std::uint64_t* words) : words_(words) {}
-    void put(std::uint64_t item, int bits) {
-        if (used_ == 64) ++words_, used_ = 0;
-        if (used_ == 0) *words_ = 0;
-        *words_ |= item << used_;
-        used_ += bits;
-    }
-    std::uint64_t take(int bits) {
-        if (used_ == 64) ++words_, used_ = 0;
-        const auto item = *words_ >> used_ & ((std::uint64_t{1} << bits) - 1);
-        used_ += bits;
-        return item;
-    }
-
-   private:
-    std::uint64_t* words_;
-    int used_ = 0;
-};
+std::int8_t pack_owner(float owner) {
+    return static_cast<std::int8_t>(std::lround(127 * std::clamp(owner, -1.0f, 1.0f)));
+}
 
 std::array<float, numbers> numbers_of(const Evaluation& evaluation) {
     std::array<float, numbers> all{evaluation.win, evaluation.draw, evaluation.loss};
@@ -68,15 +54,16 @@ void EvaluationCache::store(std::uint64_t key, const Evaluation& evaluation) {
     const auto count = words_for(priors, owners);
     if (count + 1 > most_words) return;
     std::array<std::uint64_t, most_words> data;
+    std::fill_n(data.begin(), count, 0);
     data[0] = (key & tag_bits) | priors << 16 | owners;
-    Packer values(&data[1]);
-    for (const float number : numbers_of(evaluation))
-        values.put(std::bit_cast<std::uint32_t>(number), 32);
-    Packer shares(&data[fixed_words]);
-    for (const float prior : evaluation.priors) shares.put(pack_prior(prior), 16);
-    Packer points(&data[fixed_words + (priors + 3) / 4]);
-    for (const float owner : evaluation.owners)
-        points.put(static_cast<std::uint8_t>(std::lround(127 * std::clamp(owner, -1.0f, 1.0f))), 8);
+    const auto values = numbers_of(evaluation);
+    std::memcpy(&data[1], values.data(), sizeof values);
+    Shares shares;
+    std::transform(evaluation.priors.begin(), evaluation.priors.end(), shares.begin(), pack_prior);
+    std::memcpy(&data[fixed_words], shares.data(), priors * sizeof shares[0]);
+    Points points;
+    std::transform(evaluation.owners.begin(), evaluation.owners.end(), points.begin(), pack_owner);
+    std::memcpy(&data[first_owner(priors)], points.data(), owners);
     Word* const at = &words_[place(key)];
     auto check = key;
     for (std::size_t i = 0; i < count; ++i) {
@@ -100,22 +87,22 @@ bool EvaluationCache::load(std::uint64_t key, Evaluation& to) const {
         check = engine::mixed(check, data[i]);
     }
     if (check != at[0].load(relaxed)) return false;
-    Packer values(&data[1]);
-    const auto number = [&] {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(values.take(32)));
-    };
-    to.win = number();
-    to.draw = number();
-    to.loss = number();
-    for (float& figure : to.figures) figure = number();
-    Packer shares(&data[fixed_words]);
+    std::array<float, numbers> values;
+    std::memcpy(values.data(), &data[1], sizeof values);
+    to.win = values[0];
+    to.draw = values[1];
+    to.loss = values[2];
+    std::copy(values.begin() + 3, values.end(), to.figures.begin());
+    Shares shares;
+    std::memcpy(shares.data(), &data[fixed_words], priors * sizeof shares[0]);
     to.priors.resize(priors);
-    for (float& prior : to.priors)
-        prior = unpack_prior(static_cast<std::uint16_t>(shares.take(16)));
-    Packer points(&data[fixed_words + (priors + 3) / 4]);
+    std::transform(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(priors),
+                   to.priors.begin(), unpack_prior);
+    Points points;
+    std::memcpy(points.data(), &data[first_owner(priors)], owners);
     to.owners.resize(owners);
-    for (float& owner : to.owners)
-        owner = static_cast<float>(static_cast<std::int8_t>(points.take(8))) / 127;
+    std::transform(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(owners),
+                   to.owners.begin(), [](std::int8_t owner) { return owner / 127.0f; });
     return true;
 }
 

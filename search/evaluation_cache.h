@@ -16,6 +16,8 @@ namespace search {
 
 class EvaluationCache {
    public:
+    static constexpr std::size_t most_words = 512;  // of one answer
+
     // Of less when the system grants no more; memory is taken as it fills. Fails with engine::Error
     // when there is none at all.
     explicit EvaluationCache(std::size_t bytes);
@@ -30,8 +32,7 @@ class EvaluationCache {
     using Word = std::atomic<std::uint64_t>;
     std::size_t place(std::uint64_t key) const { return (key >> 8) % places_ * stride; }
 
-    static constexpr std::size_t stride = 8;        // words between places: one cache line
-    static constexpr std::size_t most_words = 512;  // of one answer
+    static constexpr std::size_t stride = 8;  // words between places: one cache line
     static constexpr std::size_t least_bytes = (most_words + stride) * sizeof(Word);
     std::size_t places_;
     Memory memory_;

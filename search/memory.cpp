@@ -19,6 +19,8 @@ std::byte* map(std::size_t bytes) {
 Memory::Memory(std::size_t bytes, std::size_t least) : size_(bytes) {
     while (!(data_ = map(size_)) && size_ / 2 >= least) size_ /= 2;
     if (!data_) engine::fail("out of memory: cannot reserve {} bytes for the search", size_);
+    // Searches jump about in it: small pages would cost a fault and a walk of the tables each time.
+    ::madvise(data_, size_, MADV_HUGEPAGE);
 }
 
 Memory::~Memory() { ::munmap(data_, size_); }

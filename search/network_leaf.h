@@ -3,9 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include "search/evaluator.h"
 #include "search/leaf.h"
+#include "search/prior_sorter.h"
 
 namespace search {
 
@@ -66,23 +65,8 @@ class NetworkLeaf final : public LeafEvaluator<G> {
             tally_.add_length(left + static_cast<float>(leaf.line.size()));
         const bool root = leaf.path.size() == 1;
         temper(answer.priors, root ? temperatures_.root : temperatures_.elsewhere);
-        sort(answer.priors, leaf.moves);
+        sorter_.sort(answer.priors, leaf.moves);
         leaf.priors.swap(answer.priors);
-    }
-
-    // Both by the priors, the highest first and equals as they were. The bits of floats that are
-    // not negative are in the order of the floats.
-    void sort(std::vector<float>& priors, engine::MoveList& moves) {
-        keys_.clear();
-        for (std::size_t i = 0; i < priors.size(); ++i)
-            keys_.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(priors[i])} << 32 |
-                            i << 16 | moves[static_cast<int>(i)].code);
-        std::sort(keys_.begin(), keys_.end());
-        moves.clear();
-        for (std::size_t i = 0; i < keys_.size(); ++i) {
-            moves.push({static_cast<std::uint16_t>(keys_[i])});
-            priors[i] = std::bit_cast<float>(~static_cast<std::uint32_t>(keys_[i] >> 32));
-        }
     }
 
     std::unique_ptr<Evaluator<G>> evaluator_;
@@ -90,7 +74,7 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     Temperatures temperatures_;
     std::vector<Evaluation> answers_;
     std::vector<Query<G>> queries_;
-    std::vector<std::uint64_t> keys_;
+    PriorSorter sorter_;
     OwnerTally tally_;
 };
 

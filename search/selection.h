@@ -154,6 +154,11 @@ Edge* select(Tree& tree, NodeId id, const Puct& rule, Allowed allowed) {
     const float scale = c * std::sqrt(std::max(n, 1.0f));
     // Then all behind the first unvisited move are unvisited, and none has a higher prior.
     const bool prefix = id != tree.root() && tree.in_order(id);
+    for (const Edge& edge : tree.edges(id)) {
+        const NodeId child = edge.child.load(relaxed);
+        if (child != no_node) tree.prefetch(child);
+        if (child == no_node && prefix) break;
+    }
     Edge *best = nullptr, *unvisited = nullptr, *lost = nullptr;
     float best_score = 0, visited_priors = 0;
     for (Edge& edge : tree.edges_to_enter(id)) {

@@ -1,7 +1,5 @@
 #include "search/tree.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -33,12 +31,6 @@ void copy_counts(const Node& from, Node& to) {
 }
 
 }  // namespace
-
-std::uint16_t pack_prior(float prior) {
-    const auto bits = std::bit_cast<std::uint32_t>(std::clamp(prior, 0.0f, 1.0f)) + (1u << 11);
-    const auto least = least_prior_exponent << 23;
-    return bits < least ? std::uint16_t{0} : static_cast<std::uint16_t>((bits - least) >> 12);
-}
 
 float Node::variance() const {
     if (visits.load(relaxed) < 2) return 0;
@@ -73,8 +65,6 @@ Tree::Tree(std::size_t budget_bytes)
     : memory_(std::clamp(budget_bytes, least_budget, most_budget), least_budget),
       base_(memory_.data()),
       half_units_(memory_.size() / unit / 2) {
-    // It is filled from one end, so that large pages save faults and clear nothing in vain.
-    ::madvise(base_, memory_.size(), MADV_HUGEPAGE);
     clear();
 }
 

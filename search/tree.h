@@ -11,6 +11,7 @@
 // forgets. enter() and expand() say when it is time.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -48,8 +49,12 @@ inline std::int64_t fixed_point(float value) {
 }
 
 // A prior in 16 bits: 5 of exponent, 11 of mantissa, from 2^-31 to 1.
-std::uint16_t pack_prior(float prior);
 inline constexpr std::uint32_t least_prior_exponent = 96;  // 2^-31 in the bits of a float
+inline std::uint16_t pack_prior(float prior) {
+    const auto bits = std::bit_cast<std::uint32_t>(std::clamp(prior, 0.0f, 1.0f)) + (1u << 11);
+    const auto least = least_prior_exponent << 23;
+    return bits < least ? std::uint16_t{0} : static_cast<std::uint16_t>((bits - least) >> 12);
+}
 inline float unpack_prior(std::uint16_t packed) {
     if (packed == 0) return 0;
     return std::bit_cast<float>((std::uint32_t{packed} << 12) + (least_prior_exponent << 23));
@@ -153,6 +158,15 @@ class Tree {
     void enter_root() { node(root_).in_flight.fetch_add(1, relaxed); }
     // Makes the node on the first visit. no_node: full, withdraw and flip.
     NodeId enter(Edge& edge);
+    // Has memory that will be read soon come nearer: a node, or an expanded node's first edges.
+    void prefetch(NodeId id) const {
+        __builtin_prefetch(base_ + id * unit);
+        __builtin_prefetch(base_ + id * unit + sizeof(Node) - 1);
+    }
+    void prefetch_edges(NodeId id) const {
+        const auto* edges = base_ + node(id).first_edge * unit;
+        for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(edges + line * 64);
+    }
 
     // What is known already stands.
     void mark(NodeId id, Ending ending);

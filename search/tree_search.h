@@ -238,6 +238,7 @@ class TreeSearch {
             if (!edge) return true;
             const NodeId child = tree_.enter(*edge);
             if (child == no_node) return false;
+            if (tree_[child].expanded()) tree_.prefetch_edges(child);
             leaf.game.play(edge->move);
             leaf.line.push_back(edge->move);
             leaf.path.push_back(node = child);
