@@ -1,12 +1,14 @@
 #include "search/alphago_networks.h"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/error.h"
-#include "nn/load.h"
 #include "search/linear_network.h"
-#include "search/network_evaluator.h"
+#include "search/load_network.h"
 
 namespace search {
 
@@ -57,11 +59,35 @@ void check_kind(const Network& network, const char* output, int board) {
     engine::find_encoding<Go>(facts.encoding);
 }
 
-std::shared_ptr<const Network> network_in(const fs::path& file, nn::Precision precision) {
-    auto graph = nn::load(file);
-    if (graph.facts.name.empty()) graph.facts.name = file.filename().string();
-    return std::make_shared<const Network>(std::move(graph), precision);
-}
+// The networks that a folder holds, as it holds them.
+struct ExactSet {
+    explicit ExactSet(const fs::path& folder)
+        : policy(in(folder, "policy")), value(in(folder, "value")) {
+        if (fs::exists(folder / file_of("rl"))) reinforced.emplace(in(folder, "rl"));
+        if (const auto file = folder / file_of("rollout"); fs::exists(file))
+            linear = load_linear_policies(file.string());
+    }
+
+    AlphaGoSet as_it_is() const {
+        return {policy.network, reinforced ? reinforced->network : nullptr, value.network, linear};
+    }
+
+    loading::Exact policy, value;
+    std::optional<loading::Exact> reinforced;
+    std::shared_ptr<const go::LinearPolicies> linear;
+
+   private:
+    static std::string file_of(std::string_view name) {
+        return fmt::format("{}.safetensors", name);
+    }
+    static loading::Exact in(const fs::path& folder, std::string_view name) {
+        const auto file = folder / file_of(name);
+        if (!fs::exists(file))
+            fail("{}: expected AlphaGo's networks there, found no {}", folder.string(),
+                 file_of(name));
+        return loading::Exact(loading::contents_of(file));
+    }
+};
 
 }  // namespace
 
@@ -97,20 +123,15 @@ int AlphaGoSource::policy_index(const Go& game, engine::Move move) const {
 
 std::shared_ptr<const AlphaGoSource> load_alphago(const fs::path& folder, PrecisionChoice precision,
                                                   const Go& game) {
-    const auto wanted = std::min(precision.value_or(nn::Precision::bf16), nn::Precision::bf16);
-    const auto optional = [&](const char* name) { return fs::exists(folder / name); };
-    for (const char* name : {"policy.safetensors", "value.safetensors"})
-        if (!optional(name))
-            fail("{}: expected AlphaGo's networks there, found no {}", folder.string(), name);
-    AlphaGoSet set;
-    set.supervised = network_in(folder / "policy.safetensors", wanted);
-    set.value = network_in(folder / "value.safetensors", wanted);
-    if (optional("rl.safetensors")) set.reinforced = network_in(folder / "rl.safetensors", wanted);
-    if (optional("rollout.safetensors"))
-        set.linear = load_linear_policies((folder / "rollout.safetensors").string());
-    auto source = std::make_shared<const AlphaGoSource>(std::move(set));
-    source->check(game);
-    return source;
+    const ExactSet exact(folder);
+    auto set = exact.as_it_is();
+    AlphaGoSource(set).check(game);
+    const auto player = exact.policy.network;
+    set.supervised = loading::settled(exact.policy, player, precision, game);
+    set.value = loading::settled(exact.value, player, precision, game);
+    if (exact.reinforced)
+        set.reinforced = loading::settled(*exact.reinforced, player, precision, game);
+    return std::make_shared<const AlphaGoSource>(std::move(set));
 }
 
 }  // namespace search

@@ -43,8 +43,8 @@ class AlphaGoSource final : public EvaluatorSource<go::Go> {
     AlphaGoSet set_;
 };
 
-// Fails with engine::Error, one line, on a folder that lacks a network or holds another. int8 and
-// int16 are run as bf16.
+// Fails with engine::Error, one line, on a folder that lacks a network or holds another. Precisions
+// are as for load_network.
 std::shared_ptr<const AlphaGoSource> load_alphago(const std::filesystem::path& folder,
                                                   PrecisionChoice precision, const go::Go& game);
 

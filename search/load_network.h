@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,6 +52,7 @@ struct Budget {
     }
 };
 
+// From games that this network plays, which must have a policy.
 template <engine::Encoded G>
 Samples<G> sample(const std::shared_ptr<const Network>& network, const G& game) {
     const auto& graph = network->graph();
@@ -96,9 +98,11 @@ nn::Precision fastest(const std::shared_ptr<const Network>& reference,
     return best;
 }
 
-// What `choice` comes down to for this game. Adds to what is known whatever it has to find out.
+// What `choice` comes down to for this game. Adds to what is known whatever it has to find out, on
+// games that `player` plays: the network itself, or where it has no policy one that has.
 template <engine::Encoded G>
-nn::Precision settle(const std::shared_ptr<const Network>& exact, PrecisionChoice choice,
+nn::Precision settle(const std::shared_ptr<const Network>& exact,
+                     const std::shared_ptr<const Network>& player, PrecisionChoice choice,
                      const G& game, const std::string& key, KnownNetwork& known) {
     const auto& graph = exact->graph();
     const int board = engine::find_encoding<G>(graph.facts.encoding).shape(game).height;
@@ -109,7 +113,7 @@ nn::Precision settle(const std::shared_ptr<const Network>& exact, PrecisionChoic
     if (choice && (!quantised(nn::served_precision(graph, *choice, board)) ||
                    !known.calibration.maxima.empty()))
         return *choice;
-    const auto samples = sample(exact, game);
+    const auto samples = sample(player, game);
     if (known.calibration.maxima.empty()) known.calibration = calibrate<G>(graph, samples.seen);
     if (!choice)
         choice = known.fastest[board] = fastest<G>(exact, known.calibration, samples.asked, board);
@@ -130,16 +134,45 @@ inline void tell_lacking(const Network& network, PrecisionChoice choice, int boa
     spdlog::warn("{} runs in {}{}", network.graph().facts.name, nn::name_of(served), lacking);
 }
 
-inline nn::Contents contents_of(const std::string& name, std::string_view game) {
-    if (name == embedded_name) {
-        const auto bytes = embedded_weights(game);
-        if (bytes.empty()) engine::fail("this build carries no network for {}", game);
-        return nn::contents_from_bytes(bytes);
-    }
-    const auto path = find_weights(name);
-    auto contents = nn::load_contents(path);
-    if (contents.graph.facts.name.empty()) contents.graph.facts.name = path.filename().string();
+// What is in the file, under its own name where the network has none.
+inline nn::Contents contents_of(const std::filesystem::path& file) {
+    auto contents = nn::load_contents(file);
+    if (contents.graph.facts.name.empty()) contents.graph.facts.name = file.filename().string();
     return contents;
+}
+
+inline nn::Contents contents_of(const std::string& name, std::string_view game) {
+    if (name != embedded_name) return contents_of(find_weights(name));
+    const auto bytes = embedded_weights(game);
+    if (bytes.empty()) engine::fail("this build carries no network for {}", game);
+    return nn::contents_from_bytes(bytes);
+}
+
+// A network as its file has it.
+struct Exact {
+    explicit Exact(nn::Contents contents)
+        : network(std::make_shared<const Network>(std::move(contents.graph), nn::Precision::fp32)),
+          calibration(std::move(contents.calibration)),
+          key(std::move(contents.key)) {}
+
+    std::shared_ptr<const Network> network;  // in fp32
+    nn::Calibration calibration;             // may be empty
+    std::string key;
+};
+
+// The network in the precision that `choice` comes down to; `player` as for settle().
+template <engine::Encoded G>
+std::shared_ptr<const Network> settled(const Exact& exact,
+                                       const std::shared_ptr<const Network>& player,
+                                       PrecisionChoice choice, const G& game) {
+    const auto& graph = exact.network->graph();
+    auto known = recall(exact.key, graph);
+    if (!exact.calibration.maxima.empty()) known.calibration = exact.calibration;
+    const auto precision = settle(exact.network, player, choice, game, exact.key, known);
+    auto network = exact.network->in(precision, known.calibration);
+    const auto& encoding = engine::find_encoding<G>(graph.facts.encoding);
+    tell_lacking(*network, choice, encoding.shape(game).height);
+    return network;
 }
 
 }  // namespace loading
@@ -162,16 +195,10 @@ nn::Calibration calibration_of(const nn::Contents& contents, const G& game = G()
 template <engine::Encoded G>
 std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
                                                      PrecisionChoice choice, const G& game) {
-    auto contents = loading::contents_of(name, G::name);
-    auto exact = std::make_shared<const Network>(std::move(contents.graph), nn::Precision::fp32);
-    NetworkSource<G>(exact).check(game);
-    auto known = recall(contents.key, exact->graph());
-    if (!contents.calibration.maxima.empty()) known.calibration = contents.calibration;
-    const auto precision = loading::settle(exact, choice, game, contents.key, known);
-    const auto network = exact->in(precision, known.calibration);
-    const auto& encoding = engine::find_encoding<G>(network->graph().facts.encoding);
-    loading::tell_lacking(*network, choice, encoding.shape(game).height);
-    return std::make_shared<const NetworkSource<G>>(network, exact);
+    const loading::Exact exact(loading::contents_of(name, G::name));
+    NetworkSource<G>(exact.network).check(game);
+    return std::make_shared<const NetworkSource<G>>(
+        loading::settled(exact, exact.network, choice, game), exact.network);
 }
 
 }  // namespace search

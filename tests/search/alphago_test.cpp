@@ -211,6 +211,25 @@ TEST(AlphaGoSet, PriorsByThePolicyValueByTheValueNetwork) {
     EXPECT_NE(ask(*source->make_evaluator_of(Prior::reinforced)).priors, both.priors);
 }
 
+// All its networks, the value network by games that the policy plays.
+TEST(AlphaGoSet, SaysNearlyTheSameInInt16) {
+    const Folder set;
+    const go::Go game(5);
+    const auto exact = set.load();
+    const auto source = load_player(set.folder.path().string(), nn::Precision::int16, game);
+    const auto moves = game.legal_moves();
+    for (const auto prior : {Prior::supervised, Prior::reinforced}) {
+        Evaluation expected, found;
+        const Query<go::Go> asked{&game, &moves, 0, &expected}, again{&game, &moves, 0, &found};
+        exact->make_evaluator_of(prior)->evaluate({&asked, 1});
+        source->make_evaluator_of(prior)->evaluate({&again, 1});
+        EXPECT_NEAR(found.value(), expected.value(), 0.02);
+        ASSERT_EQ(found.priors.size(), expected.priors.size());
+        for (std::size_t i = 0; i < found.priors.size(); ++i)
+            EXPECT_NEAR(found.priors[i], expected.priors[i], 0.01);
+    }
+}
+
 TEST(AlphaGoSet, SearchesAndRollsOut) {
     const Folder set;
     auto params = alphago_params();
@@ -218,6 +237,7 @@ TEST(AlphaGoSet, SearchesAndRollsOut) {
         params.prior = prior;
         params.threads = 2;
         params.batch = 4;
+        params.early_end = false;
         Searcher<go::Go> searcher(params);
         searcher.set_position(go::Go(5));
         searcher.set_network(set.load());
