@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace selfplay::training {
 
@@ -47,6 +48,19 @@ std::string number(double value, double step) {
     return fmt::format("{:.{}f}", value, digits);
 }
 
+constexpr std::string_view head = R"(<svg viewBox="0 0 {} {}" role="img">
+<style>
+svg text {{ font: 11px system-ui, sans-serif; fill: #555; }}
+svg .title {{ font-size: 13px; font-weight: 600; fill: #222; }}
+svg .down {{ text-anchor: end; }} svg .along {{ text-anchor: middle; }}
+svg polyline {{ fill: none; stroke-width: 1.6; stroke-linejoin: round; }}
+svg .grid {{ stroke: #eee; }} svg .axis {{ stroke: #999; }}
+svg .level {{ stroke: #999; stroke-dasharray: 4 3; }}
+</style>
+<rect width="100%" height="100%" fill="#fff"/>
+<text class="title" x="8" y="18">{}</text>
+)";
+
 class Drawing {
    public:
     explicit Drawing(const Chart& chart) : chart_(chart) {
@@ -61,10 +75,7 @@ class Drawing {
     }
 
     std::string text() {
-        svg_ = fmt::format(
-            "<svg viewBox=\"0 0 {} {}\" role=\"img\"><text class=\"title\" x=\"8\" y=\"18\">{}"
-            "</text>\n",
-            width, height, escaped(chart_.title));
+        svg_ = fmt::format(head, width, height, escaped(chart_.title));
         draw_axes();
         for (const auto& level : chart_.levels) draw(level);
         for (std::size_t i = 0; i < chart_.lines.size(); ++i)
@@ -153,6 +164,11 @@ class Drawing {
 }  // namespace
 
 std::string to_svg(const Chart& chart) { return Drawing(chart).text(); }
+
+std::string to_svg_file(const Chart& chart) {
+    constexpr std::string_view element = "<svg", space = R"( xmlns="http://www.w3.org/2000/svg")";
+    return to_svg(chart).insert(element.size(), space);
+}
 
 std::string escaped(std::string_view text) {
     std::string safe;

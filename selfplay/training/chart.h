@@ -1,4 +1,4 @@
-// Curves as inline SVG: a title, axes with round numbers, lines, points with error bars, and levels
+// Curves as SVG: a title, axes with round numbers, lines, points with error bars, and levels
 // to compare with. Pure functions from numbers to text.
 #pragma once
 
@@ -30,7 +30,8 @@ struct Chart {
     bool from_zero = false;  // the axis of y begins at 0
 };
 
-std::string to_svg(const Chart& chart);
+std::string to_svg(const Chart& chart);  // to stand in a page
+std::string to_svg_file(const Chart& chart);
 
 // Text that may stand in HTML.
 std::string escaped(std::string_view text);

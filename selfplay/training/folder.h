@@ -31,6 +31,7 @@ class RunFolder {
     std::filesystem::path ladder() const { return path_ / "ladder.jsonl"; }
     std::filesystem::path snapshots() const { return path_ / "snapshots"; }
     std::filesystem::path report() const { return path_ / "report.html"; }
+    std::filesystem::path curve() const { return path_ / "ladder.svg"; }
 
     // As it was kept; zeros where nothing or nothing legible was.
     RunState state() const;

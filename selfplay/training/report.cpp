@@ -46,6 +46,8 @@ double share(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
+bool is_empty(const Chart& chart) { return chart.lines[0].points.empty(); }
+
 class Page {
    public:
     explicit Page(const ReportInput& input)
@@ -57,7 +59,7 @@ class Page {
         html_ += fmt::format("<h1>{}</h1>\n", escaped(title()));
         if (!input_.entries.empty()) html_ += summary(input_.entries.back());
         html_ += "<div class=\"charts\">\n";
-        add_ladder();
+        if (const auto chart = ladder(); !is_empty(chart)) html_ += to_svg(chart);
         add_learning();
         add_games();
         html_ += "</div>\n";
@@ -65,6 +67,19 @@ class Page {
         add_sample();
         add_settings();
         return html_ + std::string(page_end);
+    }
+
+    Chart ladder() const {
+        Chart chart{"Strength", unit_.name, "Elo", {{"", {}, true}}, {}, false};
+        for (const auto& rung : input_.rungs) {
+            const auto& [elo, deviation] = rung.strength;
+            if (rung.seconds >= 0 && rung.games > 0)
+                chart.lines[0].points.push_back(
+                    {rung.seconds / unit_.seconds, elo, elo - 2 * deviation, elo + 2 * deviation});
+            if (rung.seconds < 0 && (rung.games > 0 || &rung == input_.rungs.data()))
+                chart.levels.push_back({rung.name, elo});
+        }
+        return chart;
     }
 
    private:
@@ -134,19 +149,6 @@ class Page {
                   [](const Entry& e) { return share(e.played.cut_off, e.played.games); })});
     }
 
-    void add_ladder() {
-        Chart chart{"Strength", unit_.name, "Elo", {{"", {}, true}}, {}, false};
-        for (const auto& rung : input_.rungs) {
-            const auto& [elo, deviation] = rung.strength;
-            if (rung.seconds >= 0 && rung.games > 0)
-                chart.lines[0].points.push_back(
-                    {rung.seconds / unit_.seconds, elo, elo - 2 * deviation, elo + 2 * deviation});
-            if (rung.seconds < 0 && (rung.games > 0 || &rung == input_.rungs.data()))
-                chart.levels.push_back({rung.name, elo});
-        }
-        if (!chart.lines[0].points.empty()) html_ += to_svg(chart);
-    }
-
     void add_table() {
         html_ +=
             "<h2>Ladder</h2>\n<table><tr><th>player</th><th>Elo</th><th>± (95 %)</th>"
@@ -188,5 +190,10 @@ class Page {
 }  // namespace
 
 std::string report_html(const ReportInput& input) { return Page(input).text(); }
+
+std::string ladder_svg(const ReportInput& input) {
+    const auto chart = Page(input).ladder();
+    return is_empty(chart) ? "" : to_svg_file(chart);
+}
 
 }  // namespace selfplay::training

@@ -20,5 +20,7 @@ struct ReportInput {
 };
 
 std::string report_html(const ReportInput& input);
+// The ladder's curve alone, as a file; empty before anything is on it.
+std::string ladder_svg(const ReportInput& input);
 
 }  // namespace selfplay::training

@@ -12,12 +12,6 @@ h1 { font-size: 22px; margin: 0 0 4px; } h2 { font-size: 17px; margin: 28px 0 6p
 .charts { display: grid; grid-template-columns: repeat(auto-fill, minmax(420px, 1fr)); gap: 14px; }
 svg { width: 100%; display: block; }
 .charts svg { border: 1px solid #ddd; border-radius: 4px; }
-svg text { font: 11px system-ui, sans-serif; fill: #555; }
-svg .title { font-size: 13px; font-weight: 600; fill: #222; }
-svg .down { text-anchor: end; } svg .along { text-anchor: middle; }
-svg polyline { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
-svg .grid { stroke: #eee; } svg .axis { stroke: #999; }
-svg .level { stroke: #999; stroke-dasharray: 4 3; }
 table { border-collapse: collapse; } td, th { padding: 2px 14px 2px 0; text-align: left; }
 td:nth-child(n+2), th:nth-child(n+2) { text-align: right; font-variant-numeric: tabular-nums; }
 .settings td:nth-child(3) { text-align: left; color: #666; }

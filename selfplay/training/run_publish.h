@@ -100,9 +100,11 @@ template <engine::Encoded G>
 void Run<G>::write_report() {
     reported_ = standing().state.seconds;
     const auto* const game = replay_.lessons().newest();
-    engine::write_file(folder_.report(),
-                       report_html({settings_, journal_.entries(), ladder_.rungs(),
-                                    game ? sample_of<G>(*game) : SampleGame{}}));
+    const ReportInput told{settings_, journal_.entries(), ladder_.rungs(),
+                           game ? sample_of<G>(*game) : SampleGame{}};
+    engine::write_file(folder_.report(), report_html(told));
+    if (const auto curve = ladder_svg(told); !curve.empty())
+        engine::write_file(folder_.curve(), curve);
 }
 
 template <engine::Encoded G>
