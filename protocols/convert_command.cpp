@@ -1,5 +1,5 @@
-// `sanban convert IN OUT`: foreign weights to our own format, self-play games to formats that
-// others read.
+// `sanban convert IN OUT`: foreign weights and foreign games to our own formats, self-play games to
+// those that others read.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +16,8 @@
 #include "search/load_network.h"
 #include "selfplay/records/arrays.h"
 #include "selfplay/records/export.h"
+#include "selfplay/records/import.h"
+#include "selfplay/records/segment.h"
 
 namespace protocols {
 
@@ -59,24 +61,38 @@ void convert_games(const std::string& in, const std::filesystem::path& out,
                summary.positions, summary.games, summary.taught);
 }
 
+void import_texts(const std::vector<std::filesystem::path>& files, const std::string& out) {
+    records::Archive archive(out);
+    if (!archive.segments().empty()) engine::fail("{}: holds games already", out);
+    const auto counts = records::import_games(files, [&](auto games) { archive.append(games); });
+    fmt::print("{}: {} games; left out: {} without a result, {} uneven, {} broken\n", out,
+               counts.kept, counts.unfinished, counts.uneven, counts.broken);
+}
+
 }  // namespace
 
 int run_convert(Arguments arguments) {
     std::string in, out;
     records::ArraySettings arrays;
-    CLI::App app("Writes a network as safetensors, or self-play games for other programs",
-                 "sanban convert");
+    CLI::App app(
+        "Writes a network as safetensors, self-play games for other programs, or games by others "
+        "to learn from",
+        "sanban convert");
     app.add_option("IN", in,
                    "a network of sanban, KataGo, lc0 or Leela Zero; a file or folder of self-play "
-                   "games")
+                   "games; .pgn, .csa, .kif or .sgf, plain or .gz, or a folder of them")
         ->required();
-    app.add_option("OUT", out, "our own format; of games .sgf, .pgn, .csa, or .npz for NumPy")
+    app.add_option("OUT", out,
+                   "our own format; of self-play games .sgf, .pgn, .csa, or .npz for NumPy; of "
+                   "games by others a folder for `sanban learn`")
         ->required();
     app.add_option("--encoding", arrays.encoding,
                    "npz: what planes and policy are; alphazero unless given");
     app.add_option("--size", arrays.board, "npz: take the games on Go boards of this size only");
     if (const auto status = parse_flags(app, arguments)) return *status;
-    if (records::holds_games(in))
+    if (const auto texts = records::texts_behind(in); !texts.empty())
+        import_texts(texts, out);
+    else if (records::holds_games(in))
         convert_games(in, out, arrays);
     else
         convert_network(in, out);

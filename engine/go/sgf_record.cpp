@@ -319,4 +319,17 @@ class Replay {
 
 Record main_line(const Tree& tree, int most_moves) { return Replay(tree).run(most_moves); }
 
+bool is_even(const Record& record) {
+    const auto& stones = record.start.board().stones();
+    if (record.moves_before > 0 || record.start.handicap() > 1 || stones[0].any() ||
+        stones[1].any())
+        return false;
+    auto player = Player::first;
+    for (const auto& turn : record.turns) {
+        if (turn.player != player) return false;
+        player = ~player;
+    }
+    return true;
+}
+
 }  // namespace go::sgf

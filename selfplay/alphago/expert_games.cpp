@@ -19,20 +19,6 @@ bool is_sgf(const fs::path& path) {
     return ends(".sgf") || ends(".sgfs") || ends(".sgf.gz") || ends(".sgfs.gz");
 }
 
-bool has_set_up(const go::Go& start) {
-    return start.board().stones()[0].any() || start.board().stones()[1].any() ||
-           start.handicap() > 1;
-}
-
-bool in_turn(const go::sgf::Record& record) {
-    auto player = engine::Player::first;
-    for (const auto& turn : record.turns) {
-        if (turn.player != player) return false;
-        player = ~player;
-    }
-    return true;
-}
-
 ExpertGame game_of(const go::sgf::Record& record) {
     ExpertGame game{record.start.size(), record.start.komi(), {}};
     for (const auto& turn : record.turns) game.moves.push_back(turn.move.code);
@@ -49,8 +35,7 @@ std::optional<ExpertGame> selected(const go::sgf::Tree& tree, const ExpertSelect
         return std::nullopt;
     };
     if (record.start.size() != selection.size) return count(counts.other_size);
-    if (record.moves_before > 0 || has_set_up(record.start) || !in_turn(record))
-        return count(counts.handicap);
+    if (!go::sgf::is_even(record)) return count(counts.handicap);
     auto game = game_of(record);
     if (game.moves.size() < static_cast<std::size_t>(selection.least_moves))
         return count(counts.brief);

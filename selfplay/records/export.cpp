@@ -120,8 +120,8 @@ GameRecord match_record(const Game& game, int index) {
     record.moves = moves_of(game);
     record.outcome = game.outcome;
     record.score = score_text(game);
-    if (game.ending == Ending::resigned) {
-        record.reason = "resignation";
+    if (game.ending == Ending::resigned || game.ending == Ending::agreed) {
+        record.reason = name_of(game.ending);
     } else if (game.ending == Ending::move_limit) {
         record.reason = record.score.empty() ? "move limit" : "score";
         record.detail = fmt::format("cut off after {} moves", record.moves.size());

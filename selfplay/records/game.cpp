@@ -77,7 +77,7 @@ void read_turns(const sanban::records::Game& message, Game& game) {
 }  // namespace
 
 std::string_view name_of(Ending ending) {
-    constexpr std::string_view names[] = {"rules", "resignation", "move limit"};
+    constexpr std::string_view names[] = {"rules", "resignation", "move limit", "agreement"};
     return names[static_cast<std::size_t>(ending)];
 }
 

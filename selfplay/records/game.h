@@ -28,7 +28,7 @@ struct Turn {
     bool operator==(const Turn&) const = default;
 };
 
-enum class Ending : std::uint8_t { rules, resigned, move_limit };
+enum class Ending : std::uint8_t { rules, resigned, move_limit, agreed };
 std::string_view name_of(Ending ending);
 
 struct Game {
