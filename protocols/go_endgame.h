@@ -67,6 +67,8 @@ class Reading {
 struct Ending {
     bool pass = false;
     std::vector<go::Move> only;  // else among these; empty: any move
+
+    bool restricts() const { return pass || !only.empty(); }
 };
 
 // For the mover of `game`, whose stones `reading` is about. It passes when that keeps a win or

@@ -39,6 +39,30 @@ go::Go without_history(const go::Go& game) {
     return bare;
 }
 
+bool bears_out(search::Searcher<go::Go>& searcher, const go::Go& root, const Reading& reading,
+               const Ending& ending, std::optional<Milliseconds> time) {
+    constexpr float even = 0, little = 0.05f;  // of the value, in [-1, 1]
+    search::Limits limits;
+    limits.simulations = quick_simulations;
+    limits.time = time;
+    searcher.set_position(root);
+    const auto best = [&]() -> std::optional<float> {
+        const auto picture = searcher.think(limits);
+        const bool known = !picture.moves.empty() && picture.moves[0].visits > 0;
+        return known ? std::optional(picture.moves[0].value) : std::nullopt;
+    };
+    const auto free = best();
+    if (!free) return true;
+    const auto& score = reading.played_out();
+    const bool first = root.to_play() == engine::Player::first;
+    if ((*free > even) != ((first ? score.lead_halves : -score.lead_halves) > 0)) return false;
+    // Elsewhere two passes end no game, and the search does not know what is agreed after them.
+    if (agrees_on_dead_stones(root.rules())) return true;
+    limits.only = ending.pass ? std::vector{go::Go::pass} : ending.only;
+    const auto bound = best();
+    return !bound || *bound > *free - little;
+}
+
 GoJudge::GoJudge(const search::SearchParams& params) : searcher_(small(params)) {}
 
 void GoJudge::set_params(const search::SearchParams& params) {

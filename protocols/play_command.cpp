@@ -33,11 +33,16 @@ struct PlayFlags {
     double komi = 7.5;
 };
 
-// What to play after a search: nothing but a pass once the game is settled.
-std::string choose_go_move(const go::Go& game, GoJudge& judge, const search::Analysis& picture) {
-    const auto end = judge.looks_over(game) || game.consecutive_passes() > 0
-                         ? ending(game, judge.read(game), false)
-                         : Ending{};
+// Nothing but a pass once the game is settled.
+Ending read_ending(const go::Go& game, GoJudge& judge, search::Searcher<go::Go>& searcher) {
+    if (game.consecutive_passes() == 0 && !judge.looks_over(game)) return {};
+    const auto reading = judge.read(game);
+    auto end = ending(game, reading, false);
+    if (!searcher.has_network() || !end.restricts()) return end;
+    return bears_out(searcher, game, reading, end) ? end : Ending{};
+}
+
+std::string choose_go_move(const go::Go& game, const Ending& end, const search::Analysis& picture) {
     if (end.pass) return "pass";
     const auto wanted = [&](const search::MoveAnalysis& move) {
         return end.only.empty() ||
@@ -87,7 +92,8 @@ int play_go(const PlayFlags& flags) {
                  path);
     };
     view.choose = [&](const search::Analysis& picture) {
-        return choose_go_move(session.now(), judge, picture);
+        const auto end = read_ending(session.now(), judge, session.searcher());
+        return choose_go_move(session.now(), end, picture);
     };
     view.first_name = "Black (X)";
     view.second_name = "White (O)";

@@ -55,12 +55,65 @@ Looks looks_at(const Go& game, const std::vector<std::string>& doubted, float bl
     return looks;
 }
 
+// Says of every position that Black's value is such, and of moves that they are alike.
+class Opinion final : public search::EvaluatorSource<Go> {
+   public:
+    explicit Opinion(float black) : black_(black) {}
+    std::unique_ptr<search::Evaluator<Go>> make_evaluator() const override {
+        return std::make_unique<Voice>(black_);
+    }
+    std::string_view name() const override { return "opinion"; }
+    void check(const Go&) const override {}
+    int policy_index(const Go&, go::Move move) const override { return move.code; }
+
+   private:
+    class Voice final : public search::Evaluator<Go> {
+       public:
+        explicit Voice(float black) : black_(black) {}
+        void evaluate(std::span<const search::Query<Go>> queries) override {
+            for (const auto& [game, moves, symmetry, answer] : queries) {
+                const float value = game->to_play() == Player::first ? black_ : -black_;
+                const auto count = static_cast<std::size_t>(moves->size());
+                answer->priors.assign(count, 1 / static_cast<float>(count));
+                answer->win = (1 + value) / 2;
+                answer->loss = (1 - value) / 2;
+            }
+        }
+        int symmetries(const Go&) const override { return 1; }
+        std::uint64_t key(const Go& game) const override { return game.key(); }
+
+       private:
+        float black_;
+    };
+    float black_;
+};
+
+bool borne_out(const Go& game, float black) {
+    const Reading reading(game, looks_at(game, {}, 0, 0));
+    search::Searcher<Go> searcher(one_thread());
+    searcher.set_position(game);
+    searcher.set_network(std::make_shared<Opinion>(black));
+    return bears_out(searcher, game, reading, {true, {}});
+}
+
 std::vector<std::string> words(const std::string& text) {
     std::istringstream in(text);
     return {std::istream_iterator<std::string>(in), {}};
 }
 
 }  // namespace
+
+// 15 points for Black, 10 for White, and nothing left to play.
+TEST(GoJudge, ANetworkMustAgreeWhoWins) {
+    for (const char* rules : {"tromp-taylor", "chinese", "japanese"}) {
+        const auto wins = board("2XO1/2XO1/2XO1/2XO1/2XO1 b - 0:0 0.5", rules);
+        EXPECT_TRUE(borne_out(wins, 0.9f)) << rules;
+        EXPECT_FALSE(borne_out(wins, -0.5f)) << rules;
+        const auto loses = board("2XO1/2XO1/2XO1/2XO1/2XO1 b - 0:0 7.5", rules);
+        EXPECT_TRUE(borne_out(loses, -0.9f)) << rules;
+        EXPECT_FALSE(borne_out(loses, 0.5f)) << rules;
+    }
+}
 
 TEST(GoJudge, SeesASeki) {
     for (const auto& [rules, score] :
