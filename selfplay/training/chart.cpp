@@ -77,7 +77,8 @@ class Drawing {
     std::string text() {
         svg_ = fmt::format(head, width, height, escaped(chart_.title));
         draw_axes();
-        for (const auto& level : chart_.levels) draw(level);
+        for (std::size_t i = 0; i < chart_.levels.size(); ++i)
+            draw(chart_.levels[i], left + 4 + static_cast<double>(i % 4) * 92);
         for (std::size_t i = 0; i < chart_.lines.size(); ++i)
             draw(chart_.lines[i], colours[i % colours.size()]);
         draw_names();
@@ -119,9 +120,10 @@ class Drawing {
         label("down", width - right, 18, chart_.y_unit);
     }
 
-    void draw(const ChartLevel& level) {
+    // Names stand beside each other, as levels may lie close together.
+    void draw(const ChartLevel& level, double name_x) {
         line("level", left, up(level.y), width - right, up(level.y));
-        label("name", left + 4, up(level.y) - 3, level.name);
+        label("name", name_x, up(level.y) - 3, level.name);
     }
 
     void draw(const ChartLine& line, const char* colour) {
