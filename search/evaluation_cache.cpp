@@ -102,7 +102,8 @@ bool EvaluationCache::load(std::uint64_t key, Evaluation& to) const {
     std::memcpy(points.data(), &data[first_owner(priors)], owners);
     to.owners.resize(owners);
     std::transform(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(owners),
-                   to.owners.begin(), [](std::int8_t owner) { return owner / 127.0f; });
+                   to.owners.begin(),
+                   [](std::int8_t owner) { return static_cast<float>(owner) / 127; });
     return true;
 }
 
