@@ -185,11 +185,11 @@ double share(Player player, float black_value) {
     return ((player == Player::first ? black_value : -black_value) + 1.0) / 2;
 }
 
+}  // namespace
+
 int lead_of(Player player, const go::Score& score) {
     return player == Player::first ? score.lead_halves : -score.lead_halves;
 }
-
-}  // namespace
 
 bool agrees_on_dead_stones(const go::Rules& rules) {
     return rules.friendly_pass || rules.scoring == go::Scoring::territory;

@@ -20,6 +20,9 @@ struct Look {
 // With Black to move, and with White.
 using Looks = std::array<Look, 2>;
 
+// In half points.
+int lead_of(engine::Player player, const go::Score& score);
+
 // Whether the rules ask for agreement on dead stones after two passes.
 bool agrees_on_dead_stones(const go::Rules& rules);
 

@@ -41,6 +41,7 @@ go::Go without_history(const go::Go& game) {
 
 bool bears_out(search::Searcher<go::Go>& searcher, const go::Go& root, const Reading& reading,
                const Ending& ending, std::optional<Milliseconds> time) {
+    if (!searcher.has_network() || !ending.restricts()) return true;
     constexpr float even = 0, little = 0.05f;  // of the value, in [-1, 1]
     search::Limits limits;
     limits.simulations = quick_simulations;
@@ -53,9 +54,7 @@ bool bears_out(search::Searcher<go::Go>& searcher, const go::Go& root, const Rea
     };
     const auto free = best();
     if (!free) return true;
-    const auto& score = reading.played_out();
-    const bool first = root.to_play() == engine::Player::first;
-    if ((*free > even) != ((first ? score.lead_halves : -score.lead_halves) > 0)) return false;
+    if ((*free > even) != (lead_of(root.to_play(), reading.played_out()) > 0)) return false;
     // Elsewhere two passes end no game, and the search does not know what is agreed after them.
     if (agrees_on_dead_stones(root.rules())) return true;
     limits.only = ending.pass ? std::vector{go::Go::pass} : ending.only;

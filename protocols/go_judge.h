@@ -44,8 +44,9 @@ go::Go without_history(const go::Go& game);
 
 // Whether a search with a network bears out what was made of a reading, which comes from games
 // played out and is easily fooled: they must agree on who wins, and where the board is scored as it
-// stands the ending may not cost more than little. Blocks for two looks of up to `time`; `searcher`
-// keeps what it has found below `root`, the position with the mover to move.
+// stands the ending may not cost more than little. True without a network, and of an ending that
+// leaves every move. Blocks for two looks of up to `time`; `searcher` keeps what it has found below
+// `root`, the position with the mover to move.
 bool bears_out(search::Searcher<go::Go>& searcher, const go::Go& root, const Reading& reading,
                const Ending& ending, std::optional<search::Milliseconds> time = {});
 

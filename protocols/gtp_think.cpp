@@ -154,11 +154,10 @@ Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
     if (!last_word && !judge_.looks_over(game, time)) return {};
     const auto reading = judge_.read(game, time);
     if (judge_.hasty()) return {};
-    auto end = ending(game, reading, clean_up);
-    const bool doubtful = session_.searcher().has_network() && !clean_up && end.restricts();
-    if (doubtful && !bears_out(session_.searcher(), root_for(game.to_play()), reading, end, time))
-        return {};
-    return end;
+    const auto end = ending(game, reading, clean_up);
+    if (clean_up || bears_out(session_.searcher(), root_for(game.to_play()), reading, end, time))
+        return end;
+    return {};
 }
 
 // The vertex to answer: a pass when nothing is left to gain, else the search's best move, or

@@ -37,8 +37,7 @@ struct PlayFlags {
 Ending read_ending(const go::Go& game, GoJudge& judge, search::Searcher<go::Go>& searcher) {
     if (game.consecutive_passes() == 0 && !judge.looks_over(game)) return {};
     const auto reading = judge.read(game);
-    auto end = ending(game, reading, false);
-    if (!searcher.has_network() || !end.restricts()) return end;
+    const auto end = ending(game, reading, false);
     return bears_out(searcher, game, reading, end) ? end : Ending{};
 }
 
