@@ -154,7 +154,7 @@ Ending Gtp::read_ending(const go::Go& game, bool clean_up) {
     if (!last_word && !judge_.looks_over(game, time)) return {};
     const auto reading = judge_.read(game, time);
     if (judge_.hasty()) return {};
-    const auto end = ending(game, reading, clean_up);
+    auto end = ending(game, reading, clean_up);
     if (clean_up || bears_out(session_.searcher(), root_for(game.to_play()), reading, end, time))
         return end;
     return {};
