@@ -56,7 +56,7 @@ class RolloutStage {
         learner_.save(file());
         const auto quality = learner_.take_quality();
         const nlohmann::ordered_json line{{"stage", "rollout"},
-                                          {"seconds", watch_.seconds()},
+                                          {"minutes", watch_.seconds() / 60},
                                           {"positions", learner_.steps()},
                                           {"rollout_accuracy", quality[0].accuracy},
                                           {"rollout_loss", quality[0].loss},

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "engine/base/files.h"
+#include "selfplay/alphago/report.h"
+
 namespace selfplay::alphago {
 
 namespace {
@@ -16,6 +19,11 @@ class Training {
              const std::stop_token& stop)
         : input_(input), network_(network), settings_(settings), stop_(stop), watch_(input, stop) {
         fs::create_directories(weights());
+        input_.report = [this, tell = input.report](const std::string& line) {
+            tell(line);
+            if (watch_.seconds() < published_ + seconds_between_reports) return;
+            publish();
+        };
     }
 
     void run() {
@@ -23,9 +31,12 @@ class Training {
         finish("policy", "latest.safetensors", [&](const StageInput& stage) { policy(stage); });
         finish("rl", "latest.safetensors", [&](const StageInput& stage) { rl(stage); });
         finish("value", "latest.safetensors", [&](const StageInput& stage) { value(stage); });
+        publish();
     }
 
    private:
+    static constexpr double seconds_between_reports = 20;
+
     fs::path weights() const { return input_.folder / "weights"; }
     fs::path finished(const std::string& stage) const {
         return weights() / (stage + ".safetensors");
@@ -43,6 +54,15 @@ class Training {
         if (!watch_.over())
             fs::copy_file(stage.folder / result, finished(name),
                           fs::copy_options::overwrite_existing);
+    }
+
+    void publish() {
+        published_ = watch_.seconds();
+        auto rows = engine::option_rows(network_);
+        std::ranges::copy(engine::option_rows(settings_), std::back_inserter(rows));
+        const auto title = fmt::format("AlphaGo on {0}x{0}: policy of {1} layers of {2} filters",
+                                       network_.size, network_.layers, network_.filters);
+        engine::write_file(input_.folder / "report.html", report_html(input_.folder, title, rows));
     }
 
     void rollout(const StageInput& stage) const {
@@ -77,11 +97,12 @@ class Training {
                     stop_);
     }
 
-    const StageInput& input_;
+    StageInput input_;
     const StageNetwork& network_;
     const TrainSettings& settings_;
     const std::stop_token& stop_;
     Watch watch_;
+    double published_ = 0;  // when, in the call's seconds
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "selfplay/alphago/linear_learner.h"
 #include "selfplay/alphago/policy_games.h"
 #include "selfplay/alphago/policy_stage.h"
+#include "selfplay/alphago/report.h"
 #include "selfplay/alphago/rl_stage.h"
 #include "selfplay/alphago/rollout_stage.h"
 #include "selfplay/alphago/train.h"
@@ -282,6 +283,28 @@ TEST(TrainAlphaGo, AllStagesMakeASetThatPlays) {
     const auto told = stage.lines.size();
     train_alphago(stage.input, {2, 4, 5}, settings, {});  // nothing is left to do
     EXPECT_EQ(stage.lines.size(), told);
+
+    const auto page = engine::read_file(stage.input.folder / "report.html");
+    for (const auto* part : {"AlphaGo on 5x5: policy of 2 layers of 4 filters", "1. Rollouts",
+                             "2. Policy: loss", "3. Reinforced: length of games",
+                             "4. Value: squared error", "held_out_accuracy", "rl-updates"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_EQ(page.find("http"), std::string::npos);  // refers to nothing outside itself
+}
+
+TEST(TrainAlphaGo, TheReportLeavesOutWhatIsNotThere) {
+    const tests::TemporaryFolder folder;
+    const auto empty = report_html(folder.path(), "A & B", {});
+    EXPECT_NE(empty.find("<h1>A &amp; B</h1>"), std::string::npos);
+    EXPECT_EQ(empty.find("</svg>"), std::string::npos);
+    std::filesystem::create_directories(folder.path() / "policy");
+    engine::write_file(folder.path() / "policy" / "policy.jsonl",
+                       R"({"stage": "policy", "minutes": 1, "held_out_accuracy": 0.25}
+{"stage": "policy", "minutes": 2, "held_out_accuracy": 0.375}
+{"stage": "policy", "minu)");
+    const auto page = report_html(folder.path(), "torn", {});
+    EXPECT_NE(page.find("<td>policy</td><td>held_out_accuracy</td><td>0.375</td>"),
+              std::string::npos);
 }
 
 }  // namespace
