@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "engine/chess/attacks_encoding.h"
 #include "engine/chess/lc0_112.h"
+#include "engine/chess/plane_writer.h"
 #include "engine/encoding.h"
 
 namespace chess {
@@ -22,10 +24,6 @@ constexpr std::array<Step, 8> leaps = {
     {{1, 2}, {2, 1}, {2, -1}, {1, -2}, {-1, -2}, {-2, -1}, {-2, 1}, {-1, 2}}};
 constexpr int first_leap = 56, first_underpromotion = 64;
 
-Square seen_by(Player player, Square square) {
-    return player == Player::first ? square : square ^ 56;
-}
-
 int number_of(const std::array<Step, 8>& steps, const Step& step) {
     return static_cast<int>(std::find(steps.begin(), steps.end(), step) - steps.begin());
 }
@@ -41,29 +39,7 @@ int move_plane(const Step& step, Move move) {
     return number_of(directions, {sign(step[0]), sign(step[1])}) * 7 + distance - 1;
 }
 
-// Writes planes one behind the other.
-class Writer {
-   public:
-    Writer(std::span<float> planes, Player mover) : planes_(planes), mover_(mover) {
-        std::fill(planes_.begin(), planes_.end(), 0.0f);
-    }
-
-    void set(Bitboard squares) {
-        while (squares != 0) planes_[index(seen_by(mover_, pop(squares)))] = 1;
-        planes_ = planes_.subspan(64);
-    }
-    void full(float value) {
-        if (value != 0) std::fill_n(planes_.begin(), 64, value);
-        planes_ = planes_.subspan(64);
-    }
-    void skip(int planes) { planes_ = planes_.subspan(static_cast<std::size_t>(planes) * 64); }
-
-   private:
-    std::span<float> planes_;
-    Player mover_;
-};
-
-void write_board(const Chess::PastBoard& past, Player mover, Writer& writer) {
+void write_board(const Chess::PastBoard& past, Player mover, PlaneWriter& writer) {
     for (const Player player : {mover, ~mover})
         for (int kind = 0; kind < piece_kinds; ++kind)
             writer.set(past.board.pieces(player, static_cast<Piece>(kind)));
@@ -82,7 +58,7 @@ void write(const Chess& game, std::span<float> out, std::span<float> globals) {
     static_cast<void>(globals);
     const Position& position = game.position();
     const Player mover = game.to_play();
-    Writer writer(out, mover);
+    PlaneWriter writer(out, mover);
     for (int ago = 0; ago < boards; ++ago) {
         const auto past = game.board_before(ago);
         if (past)
@@ -127,10 +103,11 @@ std::uint64_t network_key(const Chess& game) {
 
 std::span<const engine::Encoding<Chess>> Chess::encodings() {
     static const auto list = [] {
-        std::array<engine::Encoding<Chess>, 2> rows = {
+        std::array<engine::Encoding<Chess>, 3> rows = {
             {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index,
               network_key},
-             lc0_112()}};
+             lc0_112(),
+             attacks_encoding()}};
         rows[1].key = network_key;
         return rows;
     }();

@@ -5,54 +5,21 @@
 #include <cassert>
 #include <cstdlib>
 
+#include "engine/shogi/attacks_encoding.h"
+#include "engine/shogi/plane_writer.h"
+
 namespace shogi {
 namespace alphazero {
 namespace {
 
 constexpr float moves_unit = 512;
 
-// Row by row from the far side of `mover`.
-constexpr std::size_t cell(int square, Player mover) {
-    const int seen = mover == Player::first ? square : turned(square);
-    return static_cast<std::size_t>(rank_of(seen) * board_size + board_size - 1 - file_of(seen));
-}
-
-// Fills planes one after another.
-class Writer {
-   public:
-    Writer(std::span<float> out, Player mover) : planes_(out), mover_(mover) {
-        std::fill(out.begin(), out.end(), 0.0f);
-    }
-
-    void squares(Bitboard set) {
-        for_each(set, [this](int square) { planes_[cell(square, mover_)] = 1; });
-        skip(1);
-    }
-    void constant(float value) {
-        if (value != 0) std::fill_n(planes_.begin(), square_count, value);
-        skip(1);
-    }
-    void skip(int number) {
-        planes_ = planes_.subspan(static_cast<std::size_t>(number) * square_count);
-    }
-
-   private:
-    std::span<float> planes_;
-    const Player mover_;
-};
-
-void write_hand(Writer& writer, const Position& position, Player player) {
-    for (const Kind kind : hand_kinds)
-        writer.constant(static_cast<float>(position.hand(player, kind)) /
-                        static_cast<float>(full_set[index(kind)]));
-}
-
-void write_board(Writer& writer, const Position& position, Player mover, int repetitions) {
+void write_board(PlaneWriter& writer, const Position& position, Player mover, int repetitions) {
     for (const Player player : {mover, ~mover})
         for (const Kind kind : board_kinds) writer.squares(position.of(player, kind));
     for (int i = 0; i < 3; ++i) writer.constant(repetitions > i ? 1.0f : 0.0f);
-    write_hand(writer, position, mover);
-    write_hand(writer, position, ~mover);
+    writer.hand(position, mover);
+    writer.hand(position, ~mover);
 }
 
 constexpr int sign(int x) { return (x > 0) - (x < 0); }
@@ -89,7 +56,7 @@ void write(const Shogi& game, std::span<float> out, std::span<float> globals) {
     assert(out.size() == std::size_t{planes} * square_count && globals.empty());
     static_cast<void>(globals);
     const Player mover = game.to_play();
-    Writer writer(out, mover);
+    PlaneWriter writer(out, mover);
     const int known = std::min(boards, game.plies());
     for (int back = 0; back < known; ++back)
         write_board(writer, game.position_before(back), mover, game.repetitions(back));
@@ -121,8 +88,9 @@ std::uint64_t network_key(const Shogi& game) {
 }  // namespace
 
 std::span<const engine::Encoding<Shogi>> Shogi::encodings() {
-    static constexpr std::array<engine::Encoding<Shogi>, 1> list = {
-        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index, network_key}}};
+    static const std::array<engine::Encoding<Shogi>, 2> list = {
+        {{"alphazero", alphazero::shape, alphazero::write, alphazero::policy_index, network_key},
+         attacks_encoding()}};
     return list;
 }
 

@@ -13,8 +13,9 @@
 
 namespace selfplay::training {
 
-enum class EncodingName : std::uint8_t { alphazero, katago_v7 };
-inline constexpr std::array<std::string_view, 2> encoding_names = {"alphazero", "katago-v7"};
+enum class EncodingName : std::uint8_t { alphazero, katago_v7, attacks };
+inline constexpr std::array<std::string_view, 3> encoding_names = {"alphazero", "katago-v7",
+                                                                   "attacks"};
 
 enum class HeadKind : std::uint8_t { pooled, flat };
 inline constexpr std::array<std::string_view, 2> head_names = {"pooled", "flat"};
@@ -45,8 +46,9 @@ struct NetworkSettings {
             Option<P, int>{"blocks", &P::blocks, 0, 80, "residual blocks of the network"},
             Option<P, int>{"channels", &P::channels, 1, 1024, "its width"},
             Choice<P, EncodingName>{"encoding", &P::encoding, encoding_names,
-                                    "what it sees: alphazero: stones and their past; katago-v7 "
-                                    "(Go): liberties, ladders, komi and rules too"},
+                                    "what it sees: alphazero: stones or men and their past; "
+                                    "katago-v7 (Go): liberties, ladders, komi and rules too; "
+                                    "attacks (chess, shogi): men, and the squares they attack"},
             Choice<P, HeadKind>{"heads", &P::heads, head_names,
                                 "pooled: any board size in Go; flat: dense over one board"},
             Choice<P, AttentionName>{"attention", &P::attention, attention_names,

@@ -83,7 +83,9 @@ void check(const Settings& settings) {
     check(settings.actors);
     const bool go = settings.game == "go";
     if (!go && settings.network.encoding == EncodingName::katago_v7)
-        fail("the encoding katago-v7 is of Go; take alphazero for {}", settings.game);
+        fail("the encoding katago-v7 is of Go; take attacks or alphazero for {}", settings.game);
+    if (go && settings.network.encoding == EncodingName::attacks)
+        fail("the encoding attacks is of chess and shogi; take katago-v7 or alphazero for go");
     if (go && settings.network.heads == HeadKind::flat && settings.actors.least_size > 0)
         fail("flat heads serve one board size; take pooled heads or least-size 0");
     if (settings.learn.micro_batch > settings.learn.batch)

@@ -13,9 +13,10 @@ namespace {
 
 static_assert(engine::Encoded<Chess>);
 
-std::vector<float> encoded(const Chess& game) {
-    std::vector<float> planes(std::size_t{alphazero::planes} * 64, -1);
-    engine::find_encoding<Chess>("alphazero").write(game, planes, {});
+std::vector<float> encoded(const Chess& game, std::string_view name = "alphazero") {
+    const auto& encoding = engine::find_encoding<Chess>(name);
+    std::vector<float> planes(encoding.shape(game).planes_size(), -1);
+    encoding.write(game, planes, {});
     return planes;
 }
 
@@ -171,6 +172,7 @@ TEST(ChessEncoding, CommutesWithSwappingTheColours) {
             // Only the planes of colour and, as Black's twin began, of the move number may differ.
             for (auto* each : {&planes, &twins}) std::fill_n(each->begin() + 112 * 64, 128, 0.0f);
             ASSERT_EQ(planes, twins) << game.to_text() << " and " << twin.to_text();
+            ASSERT_EQ(encoded(game, "attacks"), encoded(twin, "attacks")) << game.to_text();
             const auto moves = game.legal_moves();
             for (const Move move : moves) {
                 const auto other = twin.move_from_text(turned(game.move_to_text(move)));
@@ -184,6 +186,53 @@ TEST(ChessEncoding, CommutesWithSwappingTheColours) {
         }
         EXPECT_EQ(game.outcome() == Outcome::draw, twin.outcome() == Outcome::draw);
     }
+}
+
+TEST(ChessAttacks, ShowWhoAttacksWhat) {
+    const auto planes =
+        encoded(Chess::from_text("r3k3/8/8/8/3n4/8/4P3/R3K2R w KQq - 30 40"), "attacks");
+    ASSERT_EQ(planes.size(), 34u * 64);
+    const std::string none =
+        "......../......../......../......../......../......../......../........";
+    const std::string all =
+        "11111111/11111111/11111111/11111111/11111111/11111111/11111111/11111111";
+    EXPECT_EQ(plane(planes, 3),
+              "......../......../......../......../......../......../......../1......1");
+    EXPECT_EQ(plane(planes, 6 + 1),
+              "......../......../......../......../...1..../......../......../........");
+    // What the mover's pawn, rooks and king attack; own men that stand there are guarded.
+    EXPECT_EQ(plane(planes, 12),
+              "......../......../......../......../......../...1.1../......../........");
+    EXPECT_EQ(plane(planes, 12 + 3),
+              "1......1/1......1/1......1/1......1/1......1/1......1/1......1/.111111.");
+    EXPECT_EQ(plane(planes, 12 + 5),
+              "......../......../......../......../......../......../...111../...1.1..");
+    // What the opponent's knight and rook attack.
+    EXPECT_EQ(plane(planes, 18 + 1),
+              "......../......../..1.1.../.1...1../......../.1...1../..1.1.../........");
+    EXPECT_EQ(plane(planes, 18 + 3),
+              ".1111.../1......./1......./1......./1......./1......./1......./1.......");
+    EXPECT_EQ(plane(planes, 24),
+              "......../......../......../......../......../......../......../...111..");
+    EXPECT_EQ(plane(planes, 25),
+              "...1..../......../......../......../......../......../......../........");
+    EXPECT_EQ(plane(planes, 26), none);  // no capture en passant
+    EXPECT_EQ(plane(planes, 27), all);
+    EXPECT_EQ(plane(planes, 28), all);
+    EXPECT_EQ(plane(planes, 29), none);
+    EXPECT_EQ(plane(planes, 30), all);
+    EXPECT_EQ(planes[31 * 64], 0.3f);
+    EXPECT_EQ(plane(planes, 32), none);
+    EXPECT_EQ(plane(planes, 33), all);
+}
+
+TEST(ChessAttacks, ShowRepetitionAndEnPassant) {
+    Chess game;
+    for (const char* move : {"g1f3", "g8f6", "f3g1", "f6g8"}) game.play(*game.move_from_text(move));
+    EXPECT_EQ(encoded(game, "attacks")[32 * 64], 1);
+    for (const char* move : {"e2e4", "a7a6", "e4e5", "d7d5"}) game.play(*game.move_from_text(move));
+    EXPECT_EQ(plane(encoded(game, "attacks"), 26),
+              "......../......../...1..../......../......../......../......../........");
 }
 
 }  // namespace

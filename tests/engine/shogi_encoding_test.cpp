@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
 #include <vector>
 
 #include "engine/base/random.h"
@@ -17,6 +18,24 @@ std::vector<float> planes_of(const Shogi& game) {
     std::vector<float> planes(alphazero::planes * plane_size, -1.0f);
     Shogi::encodings()[0].write(game, planes, {});
     return planes;
+}
+
+std::vector<float> attacks_of(const Shogi& game) {
+    const auto& encoding = engine::find_encoding<Shogi>("attacks");
+    std::vector<float> planes(encoding.shape(game).planes_size(), -1.0f);
+    encoding.write(game, planes, {});
+    return planes;
+}
+
+// One plane, far side first, as seen by the mover.
+std::string plane(const std::vector<float>& planes, std::size_t number) {
+    std::string text;
+    for (std::size_t cell = 0; cell < plane_size; ++cell) {
+        if (cell > 0 && cell % board_size == 0) text += '/';
+        const float value = planes[number * plane_size + cell];
+        text += value == 0 ? '.' : value == 1 ? '1' : '?';
+    }
+    return text;
 }
 
 Move turned_move(Move move) {
@@ -49,6 +68,7 @@ void expect_mirrored(const Shogi& game, const Shogi& mirror) {
     seen.erase(seen.begin() + colour, seen.begin() + end);
     by_other.erase(by_other.begin() + colour, by_other.begin() + end);
     EXPECT_EQ(seen, by_other);
+    EXPECT_EQ(attacks_of(game), attacks_of(mirror));
 }
 
 void expect_one_index_a_move(const Shogi& game, const Shogi& mirror) {
@@ -127,6 +147,30 @@ TEST(ShogiEncoding, MovesHaveTheirPlaces) {
     EXPECT_EQ(policy_index(open, *open.move_from_text("2h8h")), (6 * 8 + 5) * 81 + 7 * 9 + 7);
     EXPECT_EQ(policy_index(open, *open.move_from_text("2h2c+")), (66 + 4) * 81 + 7 * 9 + 7);
     EXPECT_EQ(policy_index(open, *open.move_from_text("P*5e")), 132 * 81 + 4 * 9 + 4);
+}
+
+TEST(ShogiAttacks, CountThemAndShowTheHands) {
+    // A rook on the second file from the right, a lance behind a pawn, two golds beside the king.
+    const auto planes = attacks_of(Shogi::from_text("4k4/9/9/9/9/9/P8/L2GKG1R1/9 b 2Pb 1"));
+    ASSERT_EQ(planes.size(), 50 * plane_size);
+    EXPECT_EQ(plane(planes, 0),
+              "........./........./........./........./........./........./1......../........./"
+              ".........");
+    // Once or more; twice or more; three times.
+    EXPECT_EQ(plane(planes, 28),
+              ".......1./.......1./.......1./.......1./.......1./1......1./1.111111./"
+              "..11111.1/...111.1.");
+    EXPECT_EQ(plane(planes, 29),
+              "........./........./........./........./........./........./...111.../"
+              "....111../...1.1...");
+    // The opponent's king.
+    EXPECT_EQ(plane(planes, 31),
+              "...1.1.../...111.../........./........./........./........./........./........./"
+              ".........");
+    EXPECT_FLOAT_EQ(planes[34 * plane_size], 2.0f / 18);
+    EXPECT_EQ(planes[(41 + 5) * plane_size], 0.5f);
+    EXPECT_EQ(planes[48 * plane_size], 0);
+    EXPECT_EQ(planes[49 * plane_size], 1);
 }
 
 }  // namespace
