@@ -34,6 +34,7 @@ struct ActorSettings {
     int temperature_moves = 30;
     float opening_share = 0.75f;
     int opening_moves = 6;
+    float scattered_share = 0;
     float resign = -0.9f;
     int resign_turns = 3;
     float play_on_share = 0.1f, resign_errors = 0.05f;
@@ -78,6 +79,8 @@ struct ActorSettings {
             Option<S, float>{"opening-share", &S::opening_share, 0, 1,
                              "games that begin with moves drawn from the policy"},
             Option<S, int>{"opening-moves", &S::opening_moves, 1, 1000, "their mean number"},
+            Option<S, float>{"scattered-share", &S::scattered_share, 0, 1,
+                             "chess: games that begin with some of the men, on squares at random"},
             Option<S, float>{"resign", &S::resign, -1, 0,
                              "value below which a side gives up at the earliest; -1: never"},
             Option<S, int>{"resign-turns", &S::resign_turns, 1, 100,

@@ -5,6 +5,7 @@
 
 #include "engine/go/score.h"
 #include "selfplay/training/chance.h"
+#include "selfplay/training/scatter.h"
 
 namespace selfplay::training {
 
@@ -46,8 +47,8 @@ go::Go first_position<go::Go>(const ActorSettings& settings, engine::Random& ran
     return go::Go(size, go::Komi::from_halves(halves), self_play_rules());
 }
 template <>
-chess::Chess first_position<chess::Chess>(const ActorSettings&, engine::Random&) {
-    return {};
+chess::Chess first_position<chess::Chess>(const ActorSettings& settings, engine::Random& random) {
+    return happens(random, settings.scattered_share) ? scattered_chess(random) : chess::Chess();
 }
 template <>
 shogi::Shogi first_position<shogi::Shogi>(const ActorSettings&, engine::Random&) {

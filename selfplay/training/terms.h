@@ -21,10 +21,10 @@ chess::Chess first_position<chess::Chess>(const ActorSettings& settings, engine:
 template <>
 shogi::Shogi first_position<shogi::Shogi>(const ActorSettings& settings, engine::Random& random);
 
-// On the largest of the boards that they are played on.
+// The usual one, on the largest of the boards that they are played on.
 template <class G>
 G largest_position(ActorSettings settings) {
-    settings.small_share = 0;
+    settings.small_share = settings.scattered_share = 0;
     engine::Random random(0);
     return first_position<G>(settings, random);
 }
