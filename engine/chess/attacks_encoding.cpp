@@ -44,18 +44,14 @@ void write(const Chess& game, std::span<float> out, std::span<float> globals) {
     const Position& position = game.position();
     const Player mover = game.to_play();
     PlaneWriter writer(out, mover);
-    for (const Player player : {mover, ~mover})
-        for (int kind = 0; kind < piece_kinds; ++kind)
-            writer.set(position.pieces(player, static_cast<Piece>(kind)));
+    writer.men(position);
     const std::array attacks = {attacks_of(position, mover), attacks_of(position, ~mover)};
     for (const auto& side : attacks)
         for (const Bitboard squares : side.by_kind) writer.set(squares);
     for (const auto& side : attacks) writer.set(side.twice);
     const auto en_passant = position.en_passant();
     writer.set(en_passant ? bit(*en_passant) : 0);
-    for (const Player player : {mover, ~mover})
-        for (const bool king_side : {true, false})
-            writer.full(position.castling_rook(player, king_side) ? 1.0f : 0.0f);
+    writer.castling(position);
     writer.full(static_cast<float>(position.halfmove_clock()) / 100);
     writer.full(game.repetitions() > 0 ? 1.0f : 0.0f);
     writer.full(1);

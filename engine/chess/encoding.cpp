@@ -39,10 +39,8 @@ int move_plane(const Step& step, Move move) {
     return number_of(directions, {sign(step[0]), sign(step[1])}) * 7 + distance - 1;
 }
 
-void write_board(const Chess::PastBoard& past, Player mover, PlaneWriter& writer) {
-    for (const Player player : {mover, ~mover})
-        for (int kind = 0; kind < piece_kinds; ++kind)
-            writer.set(past.board.pieces(player, static_cast<Piece>(kind)));
+void write_board(const Chess::PastBoard& past, PlaneWriter& writer) {
+    writer.men(past.board);
     writer.full(past.repetitions >= 1 ? 1.0f : 0.0f);
     writer.full(past.repetitions >= 2 ? 1.0f : 0.0f);
 }
@@ -62,16 +60,14 @@ void write(const Chess& game, std::span<float> out, std::span<float> globals) {
     for (int ago = 0; ago < boards; ++ago) {
         const auto past = game.board_before(ago);
         if (past)
-            write_board(*past, mover, writer);
+            write_board(*past, writer);
         else
             writer.skip(planes_per_board);
     }
     writer.full(mover == Player::second ? 1.0f : 0.0f);
     const int move_number = position.ply() / 2 + 1;
     writer.full(static_cast<float>(move_number) / 100);
-    for (const Player player : {mover, ~mover})
-        for (const bool king_side : {true, false})
-            writer.full(position.castling_rook(player, king_side) ? 1.0f : 0.0f);
+    writer.castling(position);
     writer.full(static_cast<float>(position.halfmove_clock()) / 100);
 }
 

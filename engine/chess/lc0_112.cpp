@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "engine/chess/plane_writer.h"
+
 namespace chess {
 
 namespace {
 
 constexpr int boards = 8, planes_per_board = 13, plane_count = 112, policy_size = 1858;
 constexpr int castling_planes = boards * planes_per_board, ones_plane = 111;
-
-Square seen_by(Player player, Square square) {
-    return player == Player::first ? square : square ^ 56;
-}
 
 engine::EncodingShape shape(const Chess&) { return {plane_count, 8, 8, 0, policy_size, 1}; }
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-#include "engine/chess/bitboard.h"
+#include "engine/chess/position.h"
 
 namespace chess {
 
@@ -28,6 +28,19 @@ class PlaneWriter {
     void full(float value) {
         if (value != 0) std::fill_n(planes_.begin(), 64, value);
         skip(1);
+    }
+    // Six planes of the mover's men and six of the opponent's; of a Position or a PackedBoard.
+    template <class Board>
+    void men(const Board& board) {
+        for (const Player player : {mover_, ~mover_})
+            for (int kind = 0; kind < piece_kinds; ++kind)
+                set(board.pieces(player, static_cast<Piece>(kind)));
+    }
+    // Four full planes: the mover to the king's side and to the queen's, the opponent likewise.
+    void castling(const Position& position) {
+        for (const Player player : {mover_, ~mover_})
+            for (const bool king_side : {true, false})
+                full(position.castling_rook(player, king_side) ? 1.0f : 0.0f);
     }
     void skip(int planes) { planes_ = planes_.subspan(static_cast<std::size_t>(planes) * 64); }
 

@@ -39,12 +39,10 @@ void write(const Shogi& game, std::span<float> out, std::span<float> globals) {
     const Position& position = game.position();
     const Player mover = game.to_play();
     PlaneWriter writer(out, mover);
-    for (const Player player : {mover, ~mover})
-        for (const Kind kind : board_kinds) writer.squares(position.of(player, kind));
+    writer.board(position);
     for (const Player player : {mover, ~mover})
         for (const Bitboard squares : attacks_of(position, player)) writer.squares(squares);
-    writer.hand(position, mover);
-    writer.hand(position, ~mover);
+    writer.hands(position);
     writer.constant(game.repetitions(0) > 0 ? 1.0f : 0.0f);
     writer.constant(1);
 }

@@ -14,12 +14,10 @@ namespace {
 
 constexpr float moves_unit = 512;
 
-void write_board(PlaneWriter& writer, const Position& position, Player mover, int repetitions) {
-    for (const Player player : {mover, ~mover})
-        for (const Kind kind : board_kinds) writer.squares(position.of(player, kind));
+void write_board(PlaneWriter& writer, const Position& position, int repetitions) {
+    writer.board(position);
     for (int i = 0; i < 3; ++i) writer.constant(repetitions > i ? 1.0f : 0.0f);
-    writer.hand(position, mover);
-    writer.hand(position, ~mover);
+    writer.hands(position);
 }
 
 constexpr int sign(int x) { return (x > 0) - (x < 0); }
@@ -59,7 +57,7 @@ void write(const Shogi& game, std::span<float> out, std::span<float> globals) {
     PlaneWriter writer(out, mover);
     const int known = std::min(boards, game.plies());
     for (int back = 0; back < known; ++back)
-        write_board(writer, game.position_before(back), mover, game.repetitions(back));
+        write_board(writer, game.position_before(back), game.repetitions(back));
     writer.skip((boards - known) * planes_per_board);
     writer.constant(mover == Player::second ? 1.0f : 0.0f);
     writer.constant(static_cast<float>(game.move_count()) / moves_unit);

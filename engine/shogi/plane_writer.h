@@ -30,11 +30,17 @@ class PlaneWriter {
         if (value != 0) std::fill_n(planes_.begin(), square_count, value);
         skip(1);
     }
-    // The pieces in hand, as shares of a full set.
-    void hand(const Position& position, Player player) {
-        for (const Kind kind : hand_kinds)
-            constant(static_cast<float>(position.hand(player, kind)) /
-                     static_cast<float>(full_set[index(kind)]));
+    // 14 planes of the mover's pieces on the board and 14 of the opponent's.
+    void board(const Position& position) {
+        for (const Player player : {mover_, ~mover_})
+            for (const Kind kind : board_kinds) squares(position.of(player, kind));
+    }
+    // 7 full planes of the mover's pieces in hand and 7 of the opponent's, as shares of a full set.
+    void hands(const Position& position) {
+        for (const Player player : {mover_, ~mover_})
+            for (const Kind kind : hand_kinds)
+                constant(static_cast<float>(position.hand(player, kind)) /
+                         static_cast<float>(full_set[index(kind)]));
     }
     void skip(int number) {
         planes_ = planes_.subspan(static_cast<std::size_t>(number) * square_count);

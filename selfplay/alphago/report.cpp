@@ -139,11 +139,7 @@ class Page {
 
     void add_settings(std::span<const engine::OptionRow> settings) {
         html_ += "<h2>Settings</h2>\n<table class=\"settings\">\n";
-        for (const auto& row : settings)
-            html_ += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                                 training::escaped(row.name), training::escaped(row.value),
-                                 training::escaped(row.help));
-        html_ += "</table>\n";
+        html_ += training::setting_lines(settings) + "</table>\n";
     }
 
     Journal rollout_, policy_, rl_, value_, value_of_all_;

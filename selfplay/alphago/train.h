@@ -1,8 +1,7 @@
 // All stages of AlphaGo's training in their order in one folder, each in a folder of its own below:
 // rollout, policy, rl, value. What a stage has finished stands in FOLDER/weights, which is a set
-// that
-// `--search alphago` plays with; stages that have are not begun again. FOLDER/report.html shows
-// their curves as they go. Blocks.
+// that `--search alphago` plays with; stages that have are not begun again. FOLDER/report.html
+// shows their curves as they go. Blocks.
 #pragma once
 
 #include <tuple>

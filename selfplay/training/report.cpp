@@ -176,10 +176,7 @@ class Page {
         html_ += "<h2>Settings</h2>\n<table class=\"settings\">\n";
         html_ +=
             fmt::format("<tr><td>preset</td><td>{}</td></tr>\n", escaped(input_.settings.preset));
-        for (const auto& row : setting_rows(input_.settings))
-            html_ += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(row.name),
-                                 escaped(row.value), escaped(row.help));
-        html_ += "</table>\n";
+        html_ += setting_lines(setting_rows(input_.settings)) + "</table>\n";
     }
 
     const ReportInput& input_;

@@ -1,5 +1,9 @@
 #include "selfplay/training/report_page.h"
 
+#include <fmt/format.h>
+
+#include "selfplay/training/chart.h"
+
 namespace selfplay::training {
 
 const std::string_view page_head = R"part(<!DOCTYPE html>
@@ -92,5 +96,13 @@ show(Math.min(20, sample.moves.length));
 )part";
 
 const std::string_view page_end = "</body></html>\n";
+
+std::string setting_lines(std::span<const engine::OptionRow> rows) {
+    std::string lines;
+    for (const auto& row : rows)
+        lines += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(row.name),
+                             escaped(row.value), escaped(row.help));
+    return lines;
+}
 
 }  // namespace selfplay::training
