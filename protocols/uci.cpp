@@ -206,8 +206,11 @@ void Uci::think(const GoCommand& go) {
     search(go);
 }
 
-void Uci::search(const GoCommand& go) {
+search::Limits Uci::search_limits(const GoCommand& go) {
     auto limits = limits_of(go, session_->to_play());
+    if (most_simulations_ > 0 && !go.infinite)
+        limits.simulations =
+            std::min(limits.simulations.value_or(most_simulations_), most_simulations_);
     for (const auto& text : go.search_moves) {
         if (const auto move = session_->move_from_text(text))
             allowed_.push_back(*move);
@@ -224,6 +227,11 @@ void Uci::search(const GoCommand& go) {
         limits.time = search::move_within(*limits.time, overhead);
     }
     limits.report_every = look_interval;
+    return limits;
+}
+
+void Uci::search(const GoCommand& go) {
+    const auto limits = search_limits(go);
     reported_depth_ = 0;
     reported_at_ = search::Milliseconds(0);
     if (go.mate) start_mate_think(go);

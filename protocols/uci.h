@@ -55,6 +55,9 @@ class Uci {
     // The network to load before the first think; `uci` is answered before.
     void set_network(const std::string& file, search::PrecisionChoice precision);
 
+    // A move is given after so many at the latest; 0: as time allows. Analysis knows no such limit.
+    void limit_simulations(std::uint64_t most) { most_simulations_ = most; }
+
     // Until `quit` or the end of input; a think with limits that is under way then is finished.
     void serve(std::istream& in);
     // One line; false for `quit`.
@@ -101,6 +104,7 @@ class Uci {
     std::string wdl(const search::Analysis& picture, const search::MoveAnalysis& move) const;
     std::string moves_left(const search::Analysis& picture) const;
     std::string best_move(const search::Analysis& picture) const;
+    search::Limits search_limits(const GoCommand& go);
     static search::MateLimits mate_limits(const GoCommand& go);
     void change(const std::function<void(search::SearchParams&)>& edit);
 
@@ -115,6 +119,7 @@ class Uci {
     bool verbose_ = false;
     bool network_due_ = false;  // weights_ and precision_ are not in force yet
 
+    std::uint64_t most_simulations_ = 0;
     int multi_pv_ = 1;
     bool offers_ponder_ = true;
     bool shows_wdl_ = false, shows_moves_left_ = false;

@@ -20,6 +20,7 @@ struct UciFlags {
     search::SearchParams params;
     NetworkFlags network;
     std::string name = "sanban " SANBAN_VERSION;
+    std::uint64_t simulations = 0;
 };
 
 void add_flags(CLI::App& app, UciFlags& flags) {
@@ -27,6 +28,8 @@ void add_flags(CLI::App& app, UciFlags& flags) {
     add_search_flags(app, flags.params);
     add_network_flags(app, flags.network);
     app.add_option("--name", flags.name, "what the engine calls itself")->capture_default_str();
+    app.add_option("--simulations", flags.simulations, "a move, beside its clock; 0: as time allows")
+        ->capture_default_str();
 }
 
 int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session> session,
@@ -34,6 +37,7 @@ int serve(const Dialect& dialect, const UciFlags& flags, std::unique_ptr<Session
     end_on_signals();
     Output output(std::cout);
     Uci uci(dialect, std::move(session), flags.name, output, std::move(extra));
+    uci.limit_simulations(flags.simulations);
     if (!flags.network.weights.empty())
         uci.set_network(flags.network.weights, flags.network.precision);
     if (uci.handle(first_line)) uci.serve(std::cin);

@@ -10,6 +10,8 @@ namespace protocols {
 
 namespace {
 
+constexpr std::uint64_t simulations_limit = 1'000'000'000;
+
 template <class T>
 T number_within(std::string_view name, std::string_view text, T least, T most) {
     const T value = engine::parse_number<T>(text);
@@ -91,6 +93,12 @@ std::vector<UciOption> Uci::common_options() {
     options.push_back({std::string(dialect_.ponder_option), "type check default true",
                        [this](std::string_view text) {
                            offers_ponder_ = yes_or_no(dialect_.ponder_option, text);
+                       }});
+    options.push_back({"Simulations",
+                       fmt::format("type spin default 0 min 0 max {}", simulations_limit),
+                       [this](std::string_view text) {
+                           limit_simulations(number_within<std::uint64_t>(
+                               "Simulations", text, 0, simulations_limit));
                        }});
     options.push_back({dialect_.knows_resignation ? "ClearHash" : "Clear Hash", "type button",
                        [this](std::string_view) { session_->new_game(); }});

@@ -64,6 +64,29 @@ TEST(Uci, MultiPvListsSeveralMoves) {
     EXPECT_FALSE(has(answer, " multipv 4 pv "));
 }
 
+// The fewer of the two count; analysis goes on until it is stopped.
+TEST(Uci, SimulationsAreAtMostThoseSet) {
+    Guest guest;
+    guest.say("setoption name Simulations value 70\nposition startpos\n");
+    const auto shown = [&](const char* go, const char* nodes) {
+        const auto answer = guest.say(go);
+        const auto last = answer.rfind("info depth");
+        EXPECT_TRUE(has(answer.substr(last), nodes)) << answer;
+        EXPECT_TRUE(last_line(answer).starts_with("bestmove")) << answer;
+    };
+    shown("go wtime 600000 btime 600000\n", " nodes 70 ");
+    shown("go nodes 1000\n", " nodes 70 ");
+    shown("go nodes 40\n", " nodes 40 ");
+    guest.text.str("");
+    EXPECT_TRUE(guest.uci.handle("go infinite"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_FALSE(has(guest.text.str(), "bestmove"));
+    EXPECT_TRUE(guest.uci.handle("stop"));
+    EXPECT_FALSE(has(guest.text.str(), " nodes 70 "));
+    EXPECT_EQ(guest.say("setoption name Simulations value -1\n").substr(0, 18),
+              "info string error:");
+}
+
 TEST(Uci, ABadPositionLeavesTheOldOne) {
     Guest guest;
     const auto answer =

@@ -107,14 +107,17 @@ TEST_F(LoadNetwork, ADamagedMemoryIsNone) {
     const auto path = remembered();
     const auto whole = engine::read_file(path);
     const auto key = nn::load_contents(file).key;
+    const auto known = recall(key, graph);
     for (const std::string& text : {std::string(), std::string("{}"), std::string("[1, 2"),
                                     whole.substr(0, whole.size() / 2)}) {
         engine::write_file(path, text);
         EXPECT_TRUE(recall(key, graph).fastest.empty()) << text.substr(0, 20);
         EXPECT_TRUE(recall(key, graph).calibration.maxima.empty()) << text.substr(0, 20);
     }
+    // Found out again: the calibration is the same, but another precision may have been the fastest.
     load_network(file, {}, go::Go(9));
-    EXPECT_EQ(engine::read_file(path).size(), whole.size());
+    EXPECT_EQ(recall(key, graph).calibration, known.calibration);
+    EXPECT_TRUE(recall(key, graph).fastest.contains(9));
 }
 
 TEST_F(LoadNetwork, ACacheThatCannotBeWrittenDoesNoHarm) {
