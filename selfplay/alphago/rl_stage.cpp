@@ -131,7 +131,7 @@ class RlStage {
         for (const auto& playing : games)
             for (std::size_t turn = 0; turn < playing.record.turns.size(); ++turn) {
                 if (playing.record.turns[turn].share_count == 0) continue;
-                training::write_lesson(playing.record, turn, encoding, 0, 0,
+                training::write_lesson(playing.record, turn, encoding, 0, {},
                                        lessons.emplace_back());
                 lessons.back().policy_weight = students_result(playing) - expected(playing, turn);
             }

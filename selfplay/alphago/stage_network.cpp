@@ -46,7 +46,7 @@ const nn::training::Samples& ExpertBatches::make(std::span<const ExpertPlace> pl
     workers_.run([&](int worker) {
         for (auto i = static_cast<std::size_t>(worker); i < places.size(); i += threads)
             training::write_lesson(record_of(places[i]), places[i].turn, encoding_, symmetries[i],
-                                   0, lessons_[i]);
+                                   {}, lessons_[i]);
     });
     batch_.fill(lessons_, places[0].game->size, terms);
     return batch_.samples();

@@ -28,6 +28,7 @@ void add_turns(const Game& game, sanban::records::Game& message) {
     for (const auto& turn : game.turns) {
         message.add_moves(turn.move.code);
         message.add_values(static_cast<int>(std::lround(turn.value * value_unit)));
+        message.add_draws(static_cast<std::uint32_t>(std::lround(turn.draws * value_unit)));
         message.add_simulations(turn.simulations);
         message.add_share_counts(turn.share_count);
     }
@@ -45,6 +46,8 @@ void check_lists(const sanban::records::Game& message) {
         engine::fail("a record of {} moves with {} values, {} simulations and {} policies", turns,
                      message.values_size(), message.simulations_size(),
                      message.share_counts_size());
+    if (message.draws_size() != 0 && message.draws_size() != turns)
+        engine::fail("a record of {} moves with {} chances of a draw", turns, message.draws_size());
     std::uint64_t wanted = 0;
     for (const auto count : message.share_counts()) wanted += count;
     const auto there = static_cast<std::uint64_t>(message.share_moves_size());
@@ -63,6 +66,8 @@ void read_turns(const sanban::records::Game& message, Game& game) {
         Turn turn;
         turn.move.code = narrow(message.moves(i), "move");
         turn.value = std::clamp(static_cast<float>(message.values(i)) / value_unit, -1.0f, 1.0f);
+        if (message.draws_size() > 0)
+            turn.draws = std::min(static_cast<float>(message.draws(i)) / value_unit, 1.0f);
         turn.simulations = message.simulations(i);
         turn.first_share = next;
         turn.share_count = message.share_counts(i);
@@ -83,7 +88,11 @@ std::string_view name_of(Ending ending) {
 
 void Game::add(engine::Move move, float value, std::uint32_t simulations,
                std::span<const engine::Move> moves, std::span<const float> policy) {
-    Turn turn{move, value, simulations, static_cast<std::uint32_t>(shares.size()), 0};
+    Turn turn;
+    turn.move = move;
+    turn.value = value;
+    turn.simulations = simulations;
+    turn.first_share = static_cast<std::uint32_t>(shares.size());
     for (std::size_t i = 0; i < moves.size(); ++i) {
         const auto share = std::lround(std::clamp(policy[i], 0.0f, 1.0f) * share_unit);
         if (share > 0) shares.push_back({moves[i], static_cast<std::uint16_t>(share)});
@@ -97,6 +106,7 @@ std::string to_bytes(const Game& game) {
     message.set_game(game.game);
     message.set_start(game.start);
     message.set_steps(game.steps);
+    message.set_by_rollouts(game.by_rollouts);
     message.set_ending(static_cast<sanban::records::Ending>(game.ending));
     message.set_outcome(number_of(game.outcome));
     message.set_lead_halves(static_cast<int>(std::lround(game.lead * 2)));
@@ -115,6 +125,7 @@ Game from_bytes(std::string_view bytes) {
     game.game = message.game();
     game.start = message.start();
     game.steps = message.steps();
+    game.by_rollouts = message.by_rollouts();
     if (!sanban::records::Ending_IsValid(message.ending()))
         engine::fail("a record with an ending of kind {}", static_cast<int>(message.ending()));
     game.ending = static_cast<Ending>(message.ending());
@@ -132,11 +143,13 @@ std::string describe(const Game& game) {
                                                                                   : "second player";
     const auto taught = std::count_if(game.turns.begin(), game.turns.end(),
                                       [](const Turn& turn) { return turn.share_count > 0; });
+    const auto network = game.by_rollouts ? std::string("none, by rollouts")
+                                          : fmt::format("{} training steps", game.steps);
     return fmt::format(
         "game         {}\nstart        {}\nturns        {}, {} with a policy target\n"
-        "won by       {} ({}), lead {:+.1f}\nnetwork      {} training steps\n",
+        "won by       {} ({}), lead {:+.1f}\nnetwork      {}\n",
         game.game, game.start, game.turns.size(), taught, winner, name_of(game.ending), game.lead,
-        game.steps);
+        network);
 }
 
 }  // namespace selfplay::records

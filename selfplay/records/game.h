@@ -23,6 +23,7 @@ struct Share {
 struct Turn {
     engine::Move move;
     float value = 0;  // of the root after the search, in [-1, 1] as the player to move sees it
+    float draws = 0;  // how likely a draw was to that search
     std::uint32_t simulations = 0;                   // of that search
     std::uint32_t first_share = 0, share_count = 0;  // in Game::shares; none: no policy target
     bool operator==(const Turn&) const = default;
@@ -35,6 +36,9 @@ struct Game {
     std::string game;         // "go" …
     std::string start;        // the first position, as the game writes it
     std::uint64_t steps = 0;  // of training that the network had
+    // Whether there was no network, and rollouts judged the positions: then the value after a
+    // search says more of a position than how a game by such players ended.
+    bool by_rollouts = false;
     Ending ending = Ending::rules;
     engine::Outcome outcome = engine::Outcome::draw;
     float lead = 0;  // final, of the first player, in points

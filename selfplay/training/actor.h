@@ -3,6 +3,9 @@
 // owns it calls advance() from one thread over and over, and gets every finished game at once
 // through a callback on that thread. Only counts() may be called from other threads. Equal
 // settings, seeds and networks give equal games.
+//
+// Before there is a network worth asking, rollouts can take its place, as in the first iteration of
+// expert iteration (Anthony et al. 2017).
 #pragma once
 
 #include <algorithm>
@@ -16,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "search/leaf.h"
 #include "search/network_leaf.h"
 #include "search/symmetry_evaluator.h"
 #include "selfplay/training/episode.h"
@@ -37,8 +41,9 @@ class Actor {
     using Finished = std::function<void(records::Game)>;
     static constexpr std::uint64_t endless = std::numeric_limits<std::uint64_t>::max();
 
-    // Plays `games` games in all. Fails with engine::Error on settings that do not fit each other
-    // or a network that does not serve the boards.
+    // Plays `games` games in all; without a network, positions are judged by rollouts. Fails with
+    // engine::Error on settings that do not fit each other or a network that does not serve the
+    // boards.
     Actor(const ActorSettings& settings, std::uint64_t seed, Source network, std::uint64_t steps,
           Finished finished, std::uint64_t games = endless)
         : settings_(settings),
@@ -51,10 +56,10 @@ class Actor {
         set_network(std::move(network), steps);
     }
 
-    // Every later answer comes from this network, which has had so many steps of training; searches
-    // under way go on with what they know.
+    // Every later answer comes from this network (none: from rollouts), which has had so many steps
+    // of training; searches under way go on with what they know.
     void set_network(Source network, std::uint64_t steps) {
-        check_boards(*network);
+        if (network) check_boards(*network);
         network_ = std::move(network);
         steps_ = steps;
         judges_.clear();
@@ -88,7 +93,7 @@ class Actor {
     int simulations() const { return settings_.simulations; }  // of a full search
 
    private:
-    using Judge = search::NetworkLeaf<G>;
+    using Judge = search::LeafEvaluator<G>;
     static constexpr auto relaxed = std::memory_order_relaxed;
 
     void check_boards(const search::EvaluatorSource<G>& network) const {
@@ -136,6 +141,7 @@ class Actor {
     void hand_over(Episode<G>& game) {
         auto record = game.take_record();
         record.steps = steps_;
+        record.by_rollouts = !network_;
         if (game.plays_on()) watch_.add(record);
         ended_.fetch_add(1, relaxed);
         positions_.fetch_add(record.turns.size(), relaxed);
@@ -147,12 +153,16 @@ class Actor {
     Judge& judge(int board) {
         for (const auto& [side, judge] : judges_)
             if (side == board) return *judge;
+        judges_.emplace_back(board,
+                             make_judge(engine::mixed(seed_, static_cast<std::uint64_t>(board))));
+        return *judges_.back().second;
+    }
+    std::unique_ptr<Judge> make_judge(std::uint64_t seed) const {
+        if (!network_) return std::make_unique<search::RolloutLeaf<G>>(seed);
         auto evaluator = network_->make_evaluator();
         if (settings_.symmetries)
-            evaluator = std::make_unique<search::SymmetryEvaluator<G>>(
-                std::move(evaluator), engine::mixed(seed_, static_cast<std::uint64_t>(board)));
-        judges_.emplace_back(board, std::make_unique<Judge>(std::move(evaluator), false));
-        return *judges_.back().second;
+            evaluator = std::make_unique<search::SymmetryEvaluator<G>>(std::move(evaluator), seed);
+        return std::make_unique<search::NetworkLeaf<G>>(std::move(evaluator), false);
     }
 
     ActorSettings settings_;

@@ -182,6 +182,7 @@ class Episode {
             for (const auto& edge : edges()) moves_.push_back(edge.move);
         }
         record_.add(move, value, static_cast<std::uint32_t>(target_), moves_, policy());
+        record_.turns.back().draws = root().draws.value();
         return move;
     }
 

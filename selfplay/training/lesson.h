@@ -3,8 +3,11 @@
 // sees it. Pure functions of the record, for any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/encoding.h"
@@ -25,6 +28,15 @@ struct Lesson {
     std::vector<float> ownership;  // per point 1 the mover's, -1 the opponent's; empty off Go
     float lead = 0;                // final, in points
     float moves_left = 0;          // in plies
+};
+
+// What the value is taught.
+struct ValueTarget {
+    // Of it that is what the search expected of the position, the rest being how the game ended.
+    float search_share = 0;
+    // A game cut off at its limit is taken to end as its last search expected, and not in a draw;
+    // what is counted at its end, as in Go, counts all the same.
+    bool judges_cut_off = false;
 };
 
 // The position before turn `turn`; fails with engine::Error on a record that cannot be played.
@@ -77,14 +89,45 @@ void write_policy(const G& game, const engine::Encoding<G>& encoding,
     for (auto& weight : to.policy) weight = sum > 0 ? weight / sum : 0;
 }
 
-// `search_share` of the target is the searched value of the position itself.
-inline void write_outcome(const records::Game& record, const records::Turn& turn,
-                          engine::Player mover, float search_share, Lesson& to) {
+// What the search before a turn expected of win, draw and loss.
+inline std::array<float, 3> expected_outcome(const records::Turn& turn) {
+    const float draw = std::min(turn.draws, 1 - std::abs(turn.value));
+    return {(1 - draw + turn.value) / 2, draw, (1 - draw - turn.value) / 2};
+}
+
+// What its rollouts expected, of those that had a winner: random play hardly mates, and nine of ten
+// games of chess say nothing. As if a few more had been decided, half of them for each side, so
+// that one rollout among hundreds is no verdict.
+inline std::array<float, 3> rolled_outcome(const records::Turn& turn) {
+    constexpr float even = 0.05f;
+    const float win = std::clamp(0.5f + turn.value / (1 - turn.draws + even) / 2, 0.0f, 1.0f);
+    return {win, 0, 1 - win};
+}
+
+// How the game ended, as the player sees it who is to move before turn `turn`.
+inline std::array<float, 3> final_outcome(const records::Game& record, std::size_t turn,
+                                          engine::Player mover, const ValueTarget& target) {
+    const bool cut_off = record.ending == records::Ending::move_limit && record.owners.empty();
+    if (target.judges_cut_off && cut_off) {
+        auto outcome = expected_outcome(record.turns.back());
+        if ((record.turns.size() - 1 - turn) % 2 != 0) std::swap(outcome[0], outcome[2]);
+        return outcome;
+    }
     const float result = engine::value_for(mover, record.outcome);
-    const float won = 1 - search_share;
-    const float hoped = search_share * (1 + turn.value) / 2;
-    to.outcome = {hoped + (result > 0 ? won : 0), result == 0 ? won : 0,
-                  search_share - hoped + (result < 0 ? won : 0)};
+    return {result > 0 ? 1.0f : 0.0f, result == 0 ? 1.0f : 0.0f, result < 0 ? 1.0f : 0.0f};
+}
+
+// In games by rollouts what these expected of the position is all.
+inline void write_outcome(const records::Game& record, std::size_t turn, engine::Player mover,
+                          const ValueTarget& target, Lesson& to) {
+    if (record.by_rollouts) {
+        to.outcome = rolled_outcome(record.turns[turn]);
+    } else {
+        to.outcome = final_outcome(record, turn, mover, target);
+        const auto expected = expected_outcome(record.turns[turn]);
+        for (std::size_t i = 0; i < 3; ++i)
+            to.outcome[i] += target.search_share * (expected[i] - to.outcome[i]);
+    }
     to.value = to.outcome[0] - to.outcome[2];
 }
 
@@ -113,14 +156,14 @@ void write_owners(const G& game, const engine::Encoding<G>& encoding,
 // The lesson of turn `turn` on the board turned by `symmetry` (0 .. shape.symmetries - 1).
 template <engine::Encoded G>
 void write_lesson(const records::Game& record, std::size_t turn,
-                  const engine::Encoding<G>& encoding, int symmetry, float search_share,
+                  const engine::Encoding<G>& encoding, int symmetry, const ValueTarget& target,
                   Lesson& to) {
     const G game = position_of<G>(record, turn);
     const auto shape = encoding.shape(game);
     const auto& played = record.turns[turn];
     lesson::write_planes(game, encoding, shape, symmetry, to);
     lesson::write_policy(game, encoding, shape, symmetry, record.policy(played), to);
-    lesson::write_outcome(record, played, game.to_play(), search_share, to);
+    lesson::write_outcome(record, turn, game.to_play(), target, to);
     lesson::write_owners(game, encoding, shape, symmetry, record, to);
     to.moves_left = static_cast<float>(record.turns.size() - turn);
 }

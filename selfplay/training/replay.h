@@ -118,7 +118,7 @@ const nn::training::Samples& Replay<G>::draw(const Pool& pool, int count,
     workers_.run([&](int worker) {
         for (auto i = static_cast<std::size_t>(worker); i < places.size(); i += threads)
             write_lesson(*places[i].game, places[i].turn, encoding_, turned[i],
-                         settings_.search_share, drawn_[i]);
+                         {settings_.search_share, settings_.judges_cut_off}, drawn_[i]);
     });
     batch_.fill(drawn_, side, terms);
     return batch_.samples();

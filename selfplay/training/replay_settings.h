@@ -17,6 +17,7 @@ struct ReplaySettings {
     bool symmetries = true;
     bool fast_searches = false;
     float search_share = 0;
+    bool judges_cut_off = false;
 
     static constexpr auto options() {
         using engine::Flag;
@@ -39,6 +40,9 @@ struct ReplaySettings {
             Option<P, float>{"search-value-share", &P::search_share, 0, 1,
                              "of the value target that is the search's value and not the "
                              "result"},
+            Flag<P>{"judge-cut-off", &P::judges_cut_off,
+                    "a game cut off at the move limit ends as its last search expected, where "
+                    "nothing is counted; else in a draw"},
         };
     }
 };

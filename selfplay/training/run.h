@@ -61,6 +61,9 @@ class Run {
     }
     void fill_replay();
 
+    bool rolls_out() const {
+        return state_.games < static_cast<std::uint64_t>(settings_.run.rollout_games);
+    }
     Source published_network();
     Source playing(const nn::Graph& graph, const nn::Calibration& calibration) const {
         return std::make_shared<search::NetworkSource<G>>(
@@ -190,7 +193,9 @@ Standing Run<G>::standing() const {
 
 template <engine::Encoded G>
 void Run<G>::run(const std::stop_token& stop) {
-    crew_ = std::make_unique<Crew<G>>(settings_.actors, threads_, random_(), published_network(),
+    const auto network = published_network();
+    crew_ = std::make_unique<Crew<G>>(settings_.actors, threads_, random_(),
+                                      rolls_out() ? nullptr : network,
                                       static_cast<std::uint64_t>(student_.steps()));
     grow_simulations();
     progress_.begin(standing());

@@ -54,8 +54,9 @@ void Run<G>::publish(const std::stop_token& stop) {
     const auto calibration = calibrate(graph);
     if (!settings_.run.gate || passes_gate(graph, calibration, stop)) {
         nn::save(graph, folder_.latest(), calibration);
-        crew_->set_network(playing(graph, calibration),
-                           static_cast<std::uint64_t>(student_.steps()));
+        if (!rolls_out())
+            crew_->set_network(playing(graph, calibration),
+                               static_cast<std::uint64_t>(student_.steps()));
     }
     grow_simulations();
     auto entry = progress_.take_entry(standing());

@@ -19,6 +19,7 @@ struct RunSettings {
     float ratio = 4;
     float learner_share = 0.4f;
     int first_games = 100;
+    int rollout_games = 0;
     int refresh = 50;
     int last_simulations = 64, growth_games = 40'000;
     nn::Precision precision = nn::Precision::int16;
@@ -47,6 +48,8 @@ struct RunSettings {
                              "of the time, at most, that goes to learning"},
             Option<P, int>{"first-games", &P::first_games, 1, 10'000'000,
                            "games played before learning begins"},
+            Option<P, int>{"rollout-games", &P::rollout_games, 0, 10'000'000,
+                           "games in which rollouts judge, before the network takes over"},
             Option<P, int>{"refresh", &P::refresh, 1, 1'000'000,
                            "steps after which the new weights are saved and play"},
             Option<P, int>{"last-simulations", &P::last_simulations, 0, 100'000,

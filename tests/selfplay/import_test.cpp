@@ -70,7 +70,7 @@ TEST(Import, EveryTurnTeachesItsMove) {
     ASSERT_EQ(games.size(), 1u);
     const auto& encoding = engine::find_encoding<chess::Chess>("alphazero");
     training::Lesson lesson;
-    training::write_lesson(games[0], 3, encoding, 0, 0, lesson);
+    training::write_lesson(games[0], 3, encoding, 0, {}, lesson);
     const auto position = training::position_of<chess::Chess>(games[0], 3);
     const auto mate = position.move_from_text("d8h4");
     ASSERT_TRUE(mate);

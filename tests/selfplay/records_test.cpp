@@ -35,13 +35,16 @@ Game some_game(std::uint64_t seed) {
             teaches ? 150u : 50u,
             teaches ? std::span<const engine::Move>(three_moves) : std::span<const engine::Move>(),
             policy);
+        game.turns.back().draws = static_cast<float>(i) / 100;
     }
     return game;
 }
 
 TEST(Records, AGameComesBackAsItWas) {
-    const auto game = some_game(1);
+    auto game = some_game(1);
+    game.by_rollouts = true;
     const auto back = from_bytes(to_bytes(game));
+    EXPECT_TRUE(back.by_rollouts);
     EXPECT_EQ(back.game, game.game);
     EXPECT_EQ(back.start, game.start);
     EXPECT_EQ(back.owners, game.owners);
@@ -53,6 +56,7 @@ TEST(Records, AGameComesBackAsItWas) {
     for (std::size_t i = 0; i < game.turns.size(); ++i) {
         EXPECT_EQ(back.turns[i].move, game.turns[i].move);
         EXPECT_NEAR(back.turns[i].value, game.turns[i].value, 0.0006);
+        EXPECT_NEAR(back.turns[i].draws, game.turns[i].draws, 0.0006);
         EXPECT_EQ(back.turns[i].simulations, game.turns[i].simulations);
         EXPECT_EQ(back.policy(back.turns[i]).size(), i % 4 == 0 ? 2u : 0u);
     }

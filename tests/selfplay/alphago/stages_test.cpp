@@ -223,7 +223,7 @@ TEST(RlStage, TheSignOfALessonIsThatOfItsWeight) {
         settings.optimiser.schedule.rate = 0.05f;
         nn::training::Learner learner(new_policy({2, 8, 5}, 1), settings);
         std::vector<training::Lesson> lessons(1);
-        training::write_lesson(record, 0, encoding, 0, 0, lessons[0]);
+        training::write_lesson(record, 0, encoding, 0, {}, lessons[0]);
         training::Batch judge, teach;
         judge.fill(lessons, 5, learner.terms());
         lessons[0].policy_weight = weight;

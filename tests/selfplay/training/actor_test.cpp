@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "engine/base/error.h"
@@ -60,6 +61,29 @@ TYPED_TEST(EveryGame, RecordsAreLegalAndTargetsSumToOne) {
         settings.exploration = exploration;
         check_games<TypeParam>(settings);
     }
+}
+
+// Their answers differ from move to move, and are as random as the seed.
+TYPED_TEST(EveryGame, RolloutsTakeANetworksPlace) {
+    auto settings = small_settings();
+    settings.move_limit = 20;
+    const auto games = games_of<TypeParam>(settings, 1, nullptr, 6);
+    ASSERT_EQ(games.size(), 6u);
+    EXPECT_EQ(games_of<TypeParam>(settings, 1, nullptr, 6), games);
+    bool unlike = false;
+    for (const auto& record : games) {
+        EXPECT_TRUE(record.by_rollouts);
+        TypeParam game = TypeParam::from_text(record.start);
+        for (const auto& turn : record.turns) {
+            ASSERT_TRUE(game.legal_moves().contains(turn.move));
+            game.play(turn.move);
+            EXPECT_LE(std::abs(turn.value) + turn.draws, 1.001f);
+            unlike = unlike || turn.value != 0;
+        }
+    }
+    EXPECT_TRUE(unlike);
+    for (const auto& record : games_of<TypeParam>(settings, 1, even<TypeParam>(), 2))
+        EXPECT_FALSE(record.by_rollouts);
 }
 
 TYPED_TEST(EveryGame, EqualSeedsGiveEqualGames) {

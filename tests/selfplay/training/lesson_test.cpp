@@ -15,9 +15,9 @@ namespace {
 
 template <class G>
 Lesson lesson_of(const records::Game& record, std::size_t turn, int symmetry = 0,
-                 std::string_view encoding = "alphazero", float search_share = 0) {
+                 std::string_view encoding = "alphazero", const ValueTarget& target = {}) {
     Lesson lesson;
-    write_lesson(record, turn, engine::find_encoding<G>(encoding), symmetry, search_share, lesson);
+    write_lesson(record, turn, engine::find_encoding<G>(encoding), symmetry, target, lesson);
     return lesson;
 }
 
@@ -57,9 +57,47 @@ TYPED_TEST(LessonOf, TheSearchsValueIsTheMoversOwn) {
     auto record = random_record(small_start<TypeParam>(), 1, 4);
     record.outcome = engine::Outcome::first_wins;
     record.turns[1].value = 0.5f;
-    const auto lesson = lesson_of<TypeParam>(record, 1, 0, "alphazero", 0.5f);
+    record.turns[1].draws = 0.2f;
+    const auto lesson = lesson_of<TypeParam>(record, 1, 0, "alphazero", {0.5f, false});
     EXPECT_FLOAT_EQ(lesson.value, 0.5f * -1 + 0.5f * 0.5f);
-    EXPECT_FLOAT_EQ(lesson.outcome[0] + lesson.outcome[1] + lesson.outcome[2], 1);
+    EXPECT_FLOAT_EQ(lesson.outcome[0], 0.5f * 0.65f);
+    EXPECT_FLOAT_EQ(lesson.outcome[1], 0.5f * 0.2f);
+    EXPECT_FLOAT_EQ(lesson.outcome[2], 0.5f + 0.5f * 0.15f);
+}
+
+// Random play rarely mates: what counts is who won the rollouts that had a winner.
+TYPED_TEST(LessonOf, RolloutsTeachWhoWinsAmongThoseThatAreWon) {
+    auto record = random_record(small_start<TypeParam>(), 1, 4);
+    record.outcome = engine::Outcome::second_wins;
+    record.by_rollouts = true;
+    record.turns[1].value = 0.1f;
+    record.turns[1].draws = 0.85f;
+    const auto lesson = lesson_of<TypeParam>(record, 1);
+    EXPECT_FLOAT_EQ(lesson.outcome[0], 0.75f);
+    EXPECT_FLOAT_EQ(lesson.outcome[1], 0);
+    EXPECT_FLOAT_EQ(lesson.outcome[2], 0.25f);
+    // One rollout of a thousand is no verdict.
+    record.turns[1].value = -0.001f;
+    record.turns[1].draws = 0.999f;
+    EXPECT_NEAR(lesson_of<TypeParam>(record, 1).value, 0, 0.02f);
+}
+
+TYPED_TEST(LessonOf, AGameCutOffMayEndAsItsLastSearchExpected) {
+    auto record = random_record(small_start<TypeParam>(), 1, 4);
+    record.outcome = engine::Outcome::draw;
+    record.ending = records::Ending::move_limit;
+    record.owners.clear();
+    record.turns.back().value = 0.5f;
+    record.turns.back().draws = 0.25f;
+    for (std::size_t turn = 0; turn < record.turns.size(); ++turn) {
+        EXPECT_EQ(lesson_of<TypeParam>(record, turn).outcome[1], 1);
+        const auto judged = lesson_of<TypeParam>(record, turn, 0, "alphazero", {0, true});
+        const bool theirs = (record.turns.size() - turn) % 2 != 0;
+        EXPECT_FLOAT_EQ(judged.value, theirs ? 0.5f : -0.5f) << turn;
+        EXPECT_FLOAT_EQ(judged.outcome[1], 0.25f);
+    }
+    record.ending = records::Ending::rules;
+    EXPECT_EQ(lesson_of<TypeParam>(record, 0, 0, "alphazero", {0, true}).outcome[1], 1);
 }
 
 std::map<int, float> policy_of(const Lesson& lesson) {
