@@ -119,12 +119,15 @@ Quality Run<G>::held_out_quality() {
     return tally.mean();
 }
 
-// Along a straight line over the games played.
+// Along a straight line over the games played, once the network judges them.
 template <engine::Encoded G>
 void Run<G>::grow_simulations() {
     const auto& run = settings_.run;
     const auto& actors = settings_.actors;
-    if (run.last_simulations == 0) return;
+    if (rolls_out())
+        return crew_->set_simulations(run.rollout_simulations, run.rollout_simulations);
+    if (run.last_simulations == 0)
+        return crew_->set_simulations(actors.simulations, actors.fast_simulations);
     const double part =
         std::min(1.0, static_cast<double>(state_.games) / std::max(run.growth_games, 1));
     const double factor =

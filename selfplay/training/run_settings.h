@@ -19,7 +19,7 @@ struct RunSettings {
     float ratio = 4;
     float learner_share = 0.4f;
     int first_games = 100;
-    int rollout_games = 0;
+    int rollout_games = 0, rollout_simulations = 100;
     int refresh = 50;
     int last_simulations = 64, growth_games = 40'000;
     nn::Precision precision = nn::Precision::int16;
@@ -50,6 +50,8 @@ struct RunSettings {
                            "games played before learning begins"},
             Option<P, int>{"rollout-games", &P::rollout_games, 0, 10'000'000,
                            "games in which rollouts judge, before the network takes over"},
+            Option<P, int>{"rollout-simulations", &P::rollout_simulations, 1, 100'000,
+                           "of every search there"},
             Option<P, int>{"refresh", &P::refresh, 1, 1'000'000,
                            "steps after which the new weights are saved and play"},
             Option<P, int>{"last-simulations", &P::last_simulations, 0, 100'000,
