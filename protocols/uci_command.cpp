@@ -28,7 +28,8 @@ void add_flags(CLI::App& app, UciFlags& flags) {
     add_search_flags(app, flags.params);
     add_network_flags(app, flags.network);
     app.add_option("--name", flags.name, "what the engine calls itself")->capture_default_str();
-    app.add_option("--simulations", flags.simulations, "a move, beside its clock; 0: as time allows")
+    app.add_option("--simulations", flags.simulations,
+                   "a move, beside its clock; 0: as time allows")
         ->capture_default_str();
 }
 

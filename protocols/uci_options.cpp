@@ -97,8 +97,8 @@ std::vector<UciOption> Uci::common_options() {
     options.push_back({"Simulations",
                        fmt::format("type spin default 0 min 0 max {}", simulations_limit),
                        [this](std::string_view text) {
-                           limit_simulations(number_within<std::uint64_t>(
-                               "Simulations", text, 0, simulations_limit));
+                           limit_simulations(number_within<std::uint64_t>("Simulations", text, 0,
+                                                                          simulations_limit));
                        }});
     options.push_back({dialect_.knows_resignation ? "ClearHash" : "Clear Hash", "type button",
                        [this](std::string_view) { session_->new_game(); }});

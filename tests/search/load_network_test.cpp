@@ -114,7 +114,8 @@ TEST_F(LoadNetwork, ADamagedMemoryIsNone) {
         EXPECT_TRUE(recall(key, graph).fastest.empty()) << text.substr(0, 20);
         EXPECT_TRUE(recall(key, graph).calibration.maxima.empty()) << text.substr(0, 20);
     }
-    // Found out again: the calibration is the same, but another precision may have been the fastest.
+    // Found out again: the calibration is the same, but another precision may have been the
+    // fastest.
     load_network(file, {}, go::Go(9));
     EXPECT_EQ(recall(key, graph).calibration, known.calibration);
     EXPECT_TRUE(recall(key, graph).fastest.contains(9));
