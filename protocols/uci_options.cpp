@@ -94,12 +94,6 @@ std::vector<UciOption> Uci::common_options() {
                        [this](std::string_view text) {
                            offers_ponder_ = yes_or_no(dialect_.ponder_option, text);
                        }});
-    options.push_back({"Simulations",
-                       fmt::format("type spin default 0 min 0 max {}", simulations_limit),
-                       [this](std::string_view text) {
-                           limit_simulations(number_within<std::uint64_t>("Simulations", text, 0,
-                                                                          simulations_limit));
-                       }});
     options.push_back({dialect_.knows_resignation ? "ClearHash" : "Clear Hash", "type button",
                        [this](std::string_view) { session_->new_game(); }});
     if (dialect_.knows_resignation)
@@ -141,10 +135,16 @@ UciOption Uci::row_option(std::string name, std::string_view row) {
             }};
 }
 
-// Strength for people, by a level, or by a rating that is turned into one.
+// Strength for people, by a level, by simulations, or by a rating that is turned into a level.
 void Uci::add_strength(std::vector<UciOption>& options) {
     options.push_back(
         row_option(dialect_.knows_resignation ? "SkillLevel" : "Skill Level", "level"));
+    options.push_back({"Simulations",
+                       fmt::format("type spin default 0 min 0 max {}", simulations_limit),
+                       [this](std::string_view text) {
+                           limit_simulations(number_within<std::uint64_t>("Simulations", text, 0,
+                                                                          simulations_limit));
+                       }});
     if (dialect_.knows_resignation) return;
     options.push_back(
         {"UCI_LimitStrength", "type check default false", [this](std::string_view text) {
