@@ -62,6 +62,7 @@ Settings settings_of(const TrainFlags& input) {
     auto wanted = wanted_of(input.settings);
     wanted.game = input.game;
     wanted.preset = input.preset;
+    wanted.taught = !input.from.empty();
     return selfplay::training::settings_for(input.folder, wanted);
 }
 

@@ -1,10 +1,12 @@
 // The leaf evaluator of AlphaGo (Silver et al. 2016): every leaf is played out at once, and one
 // that gets children has the tree policy's priors until the networks have answered. What the
 // networks are to be asked waits in a queue that all workers share; whoever finds a batch there
-// asks it, so that rollouts and networks share the cores as the queue fills.
+// asks it, so that rollouts and networks share the cores as the queue fills. How fast it fills is
+// n_thr's to say, the visits at which a leaf gets children, which CoreShare sets by measurement.
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <memory>
@@ -14,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "search/core_share.h"
 #include "search/evaluator.h"
 #include "search/leaf.h"
 #include "search/network_leaf.h"
@@ -55,26 +58,35 @@ struct AlphaGoParams {
     float lambda = 0.5f;        // 0: nothing is played out
     float temperature = 0.67f;  // of the networks' priors
     int batch = 1;              // leaves that the networks are asked about at once
+    int n_thr = 0;              // 0: as many as `share` of the evaluator comes to
 };
 
 template <engine::Game G>
 class AlphaGoLeaf final : public LeafEvaluator<G> {
    public:
     AlphaGoLeaf(std::unique_ptr<Evaluator<G>> networks, std::unique_ptr<RolloutPlayer<G>> rollouts,
-                std::shared_ptr<LateLeaves<G>> late, const AlphaGoParams& params,
-                std::uint64_t seed)
+                std::shared_ptr<LateLeaves<G>> late, std::shared_ptr<CoreShare> share,
+                const AlphaGoParams& params, std::uint64_t seed)
         : networks_(std::move(networks)),
           rollouts_(std::move(rollouts)),
           late_(std::move(late)),
+          share_(std::move(share)),
           params_(params),
           random_(seed) {}
 
     void evaluate(std::span<Leaf<G>> leaves) override {
+        const auto begun = Clock::now();
         for (Leaf<G>& leaf : leaves) {
             leaf.priors.clear();
             if (leaf.expands) weigh(leaf);
             roll_out(leaf);
         }
+        share_->add_rollout(Clock::now() - begun);
+    }
+    // Where nothing is played out, a leaf without an answer has no value: none is to wait.
+    int visits_to_expand() const override {
+        if (params_.n_thr > 0) return params_.n_thr;
+        return params_.lambda == 0 ? 1 : share_->visits_to_expand();
     }
     bool shares_leaves() const override { return true; }
     OwnerTally* tally() override { return &tally_; }
@@ -88,7 +100,9 @@ class AlphaGoLeaf final : public LeafEvaluator<G> {
         std::vector<Query<G>> queries;
         for (std::size_t i = 0; i < judged_.size(); ++i)
             queries.push_back({&judged_[i].game, &judged_[i].moves, random_symmetry, &answers_[i]});
+        const auto begun = Clock::now();
         networks_->evaluate(queries);
+        share_->add_networks(Clock::now() - begun);
         for (std::size_t i = 0; i < judged_.size(); ++i) {
             temper(answers_[i].priors, params_.temperature);
             judged_[i].priors.swap(answers_[i].priors);
@@ -98,6 +112,8 @@ class AlphaGoLeaf final : public LeafEvaluator<G> {
     }
 
    private:
+    using Clock = std::chrono::steady_clock;
+
     void weigh(Leaf<G>& leaf) const {
         rollouts_->weigh(leaf.game, leaf.moves, leaf.priors);
         const float sum = std::accumulate(leaf.priors.begin(), leaf.priors.end(), 0.0f);
@@ -116,6 +132,7 @@ class AlphaGoLeaf final : public LeafEvaluator<G> {
     std::unique_ptr<Evaluator<G>> networks_;
     std::unique_ptr<RolloutPlayer<G>> rollouts_;
     std::shared_ptr<LateLeaves<G>> late_;
+    std::shared_ptr<CoreShare> share_;
     AlphaGoParams params_;
     engine::Random random_;
     OwnerTally tally_;

@@ -70,6 +70,8 @@ class LeafEvaluator {
     // Whether it pays to judge a leaf that another worker is judging already.
     virtual bool shares_leaves() const = 0;
     virtual OwnerTally* tally() { return nullptr; }
+    // Visits at which a leaf gets children; 0: as the search's params say. May change as time goes.
+    virtual int visits_to_expand() const { return 0; }
     // Of a leaf that has been absorbed and has its children now: remembers to ask a network about
     // it, where priors and value come from one later.
     virtual void defer(const Leaf<G>&) {}

@@ -36,7 +36,8 @@ struct SearchParams {
     int gumbel_moves = 16;             // root moves that take part (gumbel)
     float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
     float lambda = 0.5f;
-    int n_thr = 15;
+    int n_thr = 0;
+    float network_share = 0.5f;
     Prior prior = Prior::supervised;
     float alphago_cpuct = 5, alphago_temperature = 0.67f, alphago_virtual_loss = 3;
     float temperature = 0;      // of the choice of a move by its visits
@@ -102,9 +103,11 @@ struct SearchParams {
                              "of the choice of candidates; 1 in self-play (gumbel)"},
             Option<P, float>{"lambda", &P::lambda, 0, 1,
                              "share of rollouts in a value, the rest is the network's (alphago)"},
-            Option<P, int>{"n-thr", &P::n_thr, 1, 100'000,
+            Option<P, int>{"n-thr", &P::n_thr, 0, 100'000,
                            "visits at which a leaf gets children and networks are asked (alphago); "
-                           "the paper: 40"},
+                           "0: as many as give networks their share; the paper: 40 at first"},
+            Option<P, float>{"network-share", &P::network_share, 0.01f, 0.99f,
+                             "of the time, by measurement, with n-thr 0 (alphago)"},
             Choice<P, Prior>{"prior", &P::prior, prior_names,
                              "policy network that the priors are of (alphago)"},
             Option<P, float>{"alphago-cpuct", &P::alphago_cpuct, 0, 100, "c of PUCT (alphago)"},

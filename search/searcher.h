@@ -131,6 +131,7 @@ class Searcher {
     std::shared_ptr<const EvaluatorSource<G>> network_;
     std::shared_ptr<EvaluationCache> cache_;  // with a network
     std::shared_ptr<LateLeaves<G>> unanswered_ = std::make_shared<LateLeaves<G>>();
+    std::shared_ptr<CoreShare> share_;  // in AlphaGo's search, over all thinks
     std::unique_ptr<TreeSearch<G>> search_;
     std::vector<std::unique_ptr<Worker<G>>> workers_;
     LagMeter late_;
@@ -206,8 +207,12 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
     auto cached = std::make_unique<CachedEvaluator<G>>(std::move(turned), cache_);
     if (uses_alphago())
         return std::make_unique<AlphaGoLeaf<G>>(
-            std::move(cached), network_->make_rollouts(), unanswered_,
-            AlphaGoParams{params_.lambda, params_.alphago_temperature, params_.batch}, seed);
+            std::move(cached), network_->make_rollouts(), unanswered_, share_,
+            AlphaGoParams{.lambda = params_.lambda,
+                          .temperature = params_.alphago_temperature,
+                          .batch = params_.batch,
+                          .n_thr = params_.n_thr},
+            seed);
     typename NetworkLeaf<G>::Temperatures temperatures;
     temperatures.elsewhere = params_.policy_temperature;
     const float root = params_.root_policy_temperature;
@@ -220,6 +225,7 @@ template <engine::Game G>
 void Searcher<G>::hire() {
     crew_.reset();
     workers_.clear();
+    share_ = std::make_shared<CoreShare>(params_.network_share);
     for (int i = 0; i < params_.threads; ++i) {
         const auto seed = static_cast<std::uint64_t>(params_.seed) << 32 | static_cast<unsigned>(i);
         const int batch = uses_network() && !uses_alphago() ? params_.batch : 1;
@@ -244,7 +250,8 @@ void Searcher<G>::set_params(const SearchParams& params) {
     if (old.draw_score != params.draw_score) search_->set_root(G(position()));
     const auto workers = [](const SearchParams& of) {
         return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries, of.policy_temperature,
-                          of.root_policy_temperature, of.lambda, of.alphago_temperature);
+                          of.root_policy_temperature, of.lambda, of.alphago_temperature, of.n_thr,
+                          of.network_share);
     };
     if (workers(old) != workers(params)) hire();
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <optional>
 #include <span>
@@ -50,6 +51,7 @@ class TreeSearch {
           rule_(rule_of(params, network)),
           tree_(static_cast<std::size_t>(params.memory_mib) << 20) {
         tree_.set_blend(blend());
+        set_visits_to_expand(params.expand_after);
     }
 
     const Tree& tree() const { return tree_; }
@@ -72,7 +74,10 @@ class TreeSearch {
         params_ = params;
         rule_ = rule_of(params, network_);
         tree_.set_blend(blend());
+        set_visits_to_expand(params.expand_after);
     }
+    // What params say of it holds until then. From any thread.
+    void set_visits_to_expand(int visits) { visits_to_expand_.store(visits, relaxed); }
 
     // The moves of the tree, two at most, from the root to `game`; empty when there is no such
     // line.
@@ -174,7 +179,6 @@ class TreeSearch {
    private:
     bool is_alphago() const { return network_ && params_.method == Method::alphago; }
     float blend() const { return is_alphago() ? params_.lambda : 1; }
-    int visits_to_expand() const { return is_alphago() ? params_.n_thr : params_.expand_after; }
 
     static Rule rule_of(const SearchParams& params, bool network) {
         constexpr bool weighs = engine::WeighsMoves<typename engine::RolloutsOf<G>::type, G>;
@@ -248,8 +252,8 @@ class TreeSearch {
 
     Gathered prepare(Leaf<G>& leaf, NodeId node, bool share) {
         const auto visits = tree_[node].visits.load(relaxed);
-        const bool due =
-            node == tree_.root() || visits + 1 >= static_cast<std::uint32_t>(visits_to_expand());
+        const auto wanted = static_cast<std::uint32_t>(visits_to_expand_.load(relaxed));
+        const bool due = node == tree_.root() || visits + 1 >= wanted;
         leaf.expands = due && tree_.claim(node);
         if (due && !leaf.expands && !share) return tree_.withdraw(leaf.path), Gathered::taken;
         if (leaf.expands) leaf.moves = sensible_moves(leaf.game, network_ || node == tree_.root());
@@ -300,6 +304,7 @@ class TreeSearch {
     SearchParams params_;
     bool network_;
     Rule rule_;
+    std::atomic<int> visits_to_expand_ = 1;  // a leaf's, when it gets children
     G root_;
     Tree tree_;
     MoveFilter filter_;

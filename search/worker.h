@@ -111,6 +111,8 @@ class Worker {
             count(leaves_[i]);
         }
         for (const Leaf<G>& leaf : evaluator_->judge_deferred()) search.absorb_late(leaf);
+        if (const int visits = evaluator_->visits_to_expand(); visits > 0)
+            search.set_visits_to_expand(visits);
         return true;
     }
 

@@ -81,7 +81,7 @@ class Run {
     void measure(const std::stop_token& stop);
     void write_report();
     Quality held_out_quality();
-    void grow_simulations();
+    void set_simulations();
 
     static double since(Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
@@ -197,7 +197,7 @@ void Run<G>::run(const std::stop_token& stop) {
     crew_ = std::make_unique<Crew<G>>(settings_.actors, threads_, random_(),
                                       rolls_out() ? nullptr : network,
                                       static_cast<std::uint64_t>(student_.steps()));
-    grow_simulations();
+    set_simulations();
     progress_.begin(standing());
     while (!over(stop)) {
         play(stop);

@@ -58,7 +58,7 @@ void Run<G>::publish(const std::stop_token& stop) {
             crew_->set_network(playing(graph, calibration),
                                static_cast<std::uint64_t>(student_.steps()));
     }
-    grow_simulations();
+    set_simulations();
     auto entry = progress_.take_entry(standing());
     entry.learned = student_.take_quality();
     entry.held_out = held_out_quality();
@@ -121,7 +121,7 @@ Quality Run<G>::held_out_quality() {
 
 // Along a straight line over the games played, once the network judges them.
 template <engine::Encoded G>
-void Run<G>::grow_simulations() {
+void Run<G>::set_simulations() {
     const auto& run = settings_.run;
     const auto& actors = settings_.actors;
     if (rolls_out())

@@ -136,6 +136,7 @@ Settings settings_for(const std::filesystem::path& folder, const Wanted& wanted)
     } else {
         settings = preset_settings(wanted.preset.value_or("laptop"), wanted.game.value_or("go"),
                                    wanted.size.value_or(9));
+        if (wanted.taught) settings.run.rollout_games = 0;
     }
     for (const auto& [name, text] : wanted.changes) set_setting(settings, name, text);
     check(settings);

@@ -50,6 +50,7 @@ Settings settings_from_json(std::string_view text);
 struct Wanted {
     std::optional<std::string> game, preset;
     std::optional<int> size;
+    bool taught = false;  // a new run begins with a network that needs no rollouts to judge for it
     std::vector<std::pair<std::string, std::string>> changes;
 };
 Settings settings_for(const std::filesystem::path& folder, const Wanted& wanted);

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "engine/base/error.h"
 #include "engine/games.h"
 #include "nn/builders.h"
 #include "nn/load.h"
+#include "search/core_share.h"
 #include "search/linear_network.h"
 #include "search/load_player.h"
 #include "search/policy_player.h"
@@ -125,10 +127,11 @@ Limits simulations(std::uint64_t count) {
 
 TEST(AlphaGoSearch, AFakeNetworkWins) {
     for (const float lambda : {0.0f, 0.5f, 1.0f})
-        for (const int batch : {1, 4}) {
+        for (const int batch : {0, 1, 4}) {
             auto params = alphago_params();
             params.lambda = lambda;
-            params.batch = batch;
+            params.batch = std::max(batch, 1);
+            if (batch == 0) params.n_thr = 0;
             Searcher<TicTacToe> searcher(params);
             searcher.set_network(std::make_shared<FakeSource>());
             // X to move wins in one.
@@ -152,6 +155,41 @@ TEST(AlphaGoSearch, OneThreadAndOneSeedGiveOneTree) {
         return visits;
     };
     EXPECT_EQ(think(), think());
+}
+
+// Visits at which leaves are handed on, and the networks' part of the time, once rollouts of 50 µs
+// and answers of 2 ms have gone on for a while.
+struct Settled {
+    int visits;
+    double networks;
+};
+Settled settled(float share) {
+    using namespace std::chrono_literals;
+    CoreShare cores(share);
+    double rollouts = 0, networks = 0;
+    int visits = 0;
+    for (int simulation = 0; simulation < 400'000; ++simulation) {
+        const bool counts = simulation > 200'000;
+        cores.add_rollout(50us);
+        rollouts += counts ? 0.05 : 0;
+        if (++visits < cores.visits_to_expand()) continue;
+        visits = 0;
+        cores.add_networks(2ms);
+        networks += counts ? 2 : 0;
+    }
+    return {cores.visits_to_expand(), networks / (networks + rollouts)};
+}
+
+TEST(CoreShare, NetworksGetTheirShareOfTheTime) {
+    EXPECT_NEAR(settled(0.5f).visits, 40, 4);
+    for (const float share : {0.2f, 0.5f, 0.8f})
+        EXPECT_NEAR(settled(share).networks, share, 0.05) << share;
+}
+
+TEST(CoreShare, WithoutAnAnswerLeavesAreHandedOnSooner) {
+    CoreShare cores(0.5f);
+    for (int i = 0; i < 100; ++i) cores.add_rollout(std::chrono::milliseconds(50));
+    EXPECT_EQ(cores.visits_to_expand(), 1);
 }
 
 // Sets of networks for 5x5 in a folder.

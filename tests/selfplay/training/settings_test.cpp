@@ -90,5 +90,15 @@ TEST(TrainSettings, AFolderStaysWithItsGameAndNetwork) {
     EXPECT_EQ(settings_for(folder.path(), slower).learn.rate, 0.25f);
 }
 
+TEST(Settings, ATaughtNetworkNeedsNoRollouts) {
+    Wanted wanted;
+    wanted.game = "shogi";
+    EXPECT_GT(settings_for({}, wanted).run.rollout_games, 0);
+    wanted.taught = true;
+    EXPECT_EQ(settings_for({}, wanted).run.rollout_games, 0);
+    wanted.changes = {{"rollout-games", "50"}};
+    EXPECT_EQ(settings_for({}, wanted).run.rollout_games, 50);
+}
+
 }  // namespace
 }  // namespace selfplay::training
