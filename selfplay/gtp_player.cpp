@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <sstream>
+#include <string>
 
 #include "engine/base/error.h"
 
@@ -23,6 +25,16 @@ long long whole_seconds(Milliseconds time) { return time.count() <= 0 ? 0 : time
 // Seconds with their fraction, where an extension takes them.
 std::string exact_seconds(Milliseconds time) {
     return fmt::format("{}", static_cast<double>(time.count()) / 1000);
+}
+
+// As KataGo's extension writes a time control.
+std::string exact_settings(const search::TimeControl& time) {
+    const auto main = exact_seconds(time.main), period = exact_seconds(time.period);
+    if (time.increment.count() > 0)
+        return fmt::format("fischer {} {}", main, exact_seconds(time.increment));
+    if (time.periods == 0) return fmt::format("absolute {}", main);
+    if (time.period_moves == 1) return fmt::format("byoyomi {} {} {}", main, period, time.periods);
+    return fmt::format("canadian {} {} {}", main, period, time.period_moves);
 }
 
 std::vector<std::string> words(const std::string& text) {
@@ -104,15 +116,13 @@ void GtpPlayer::set_handicap(const GoConditions& conditions, Deadline deadline) 
 
 // The best form of the time control that the engine knows.
 std::string GtpPlayer::time_command(const TimeControl& time) const {
-    if (time.increment.count() > 0 && knows("kata-time_settings"))
-        return fmt::format("kata-time_settings fischer {} {}", exact_seconds(time.main),
-                           exact_seconds(time.increment));
-    if (time.periods > 0 && time.period_moves == 1 && time.periods > 1) {
-        const auto japanese = fmt::format("byoyomi {} {} {}", whole_seconds(time.main),
-                                          whole_seconds(time.period), time.periods);
-        if (knows("kata-time_settings")) return "kata-time_settings " + japanese;
-        if (knows("kgs-time_settings")) return "kgs-time_settings " + japanese;
-    }
+    if (knows("kata-time_settings")) return "kata-time_settings " + exact_settings(time);
+    if (time.periods > 0 && time.period < std::chrono::seconds(1))
+        engine::fail("{}: GTP's own commands tell whole seconds only, not a period of {} s", name_,
+                     exact_seconds(time.period));
+    if (time.period_moves == 1 && time.periods > 1 && knows("kgs-time_settings"))
+        return fmt::format("kgs-time_settings byoyomi {} {} {}", whole_seconds(time.main),
+                           whole_seconds(time.period), time.periods);
     const int stones = time.periods > 0 ? time.period_moves : 0;
     return fmt::format("time_settings {} {} {}", whole_seconds(time.main),
                        whole_seconds(time.period), stones);
@@ -142,8 +152,11 @@ void GtpPlayer::tell_time(engine::Player player, const search::TimeLeft& left, D
     const bool overtime = left.in_overtime();
     const bool japanese = left.control.period_moves == 1;
     const int stones = !overtime ? 0 : japanese ? left.periods : left.moves;
+    const auto seconds = overtime ? left.period : left.main;
     demand(fmt::format("time_left {} {} {}", colour(player),
-                       whole_seconds(overtime ? left.period : left.main), stones),
+                       knows("kata-time_settings") ? exact_seconds(seconds)
+                                                   : std::to_string(whole_seconds(seconds)),
+                       stones),
            deadline);
 }
 

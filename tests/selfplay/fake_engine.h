@@ -1,6 +1,7 @@
 // A scripted GTP engine for tests: a shell script in a temporary folder. As Black it fills the D
 // file of a 9x9 board from below, as White the F file, one stone a move, and then passes; at its
-// `at`th move it does what `mode` says.
+// `at`th move it does what `mode` says. In the mode `exact` it knows KataGo's times and writes what
+// it is told of them to the file `at`.
 #pragma once
 
 #include <filesystem>
@@ -34,6 +35,7 @@ echo 'fake engine, at your service'
 while read -r command first second; do
     case $command in
         list_commands) printf '= name\nlist_commands\nboardsize\nclear_board\nkomi\nplay\n'
+                       [ "$mode" = exact ] && printf 'kata-time_settings\n'
                        printf 'genmove\nfinal_status_list\ntime_settings\ntime_left\nquit\n\n' ;;
         name) answer "fake-$mode" ;;
         clear_board) moves=0; answer ;;
@@ -44,6 +46,8 @@ while read -r command first second; do
             elif [ $moves -gt 9 ]; then answer pass
             elif [ "$first" = b ]; then answer D$moves
             else answer f$moves; fi ;;
+        kata-time_settings|time_left) [ "$mode" = exact ] && echo "$command $first $second" >>"$at"
+                       answer ;;
         quit) answer; exit ;;
         *) answer ;;
     esac

@@ -228,6 +228,21 @@ TEST(Match, StopsCleanlyInTheMiddle) {
     EXPECT_LT(Clock::now() - begin, 5s);
 }
 
+// What has no fraction would be no time at all.
+TEST(Match, EnginesAreToldPartsOfASecondOrNoGameBegins) {
+    const FakeEngine fake;
+    const auto log = fake.folder() / "told";
+    auto settings = settings_for(fake.command("exact", log.string()), fake.command(), 1);
+    settings.rules.margin = 2s;
+    settings.rules.time[0] = time_from_text("move 0.5");
+    ASSERT_EQ(play(settings).size(), 1u);
+    const auto told = engine::read_file(log);
+    EXPECT_TRUE(told.starts_with("kata-time_settings byoyomi 0 0.5 1\n")) << told;
+    EXPECT_NE(told.find("time_left b 0.5 1\n"), std::string::npos) << told;
+    settings.rules.time[1] = time_from_text("move 0.5");
+    EXPECT_THROW(play(settings), engine::Error);
+}
+
 TEST(Match, SprtStopsEarly) {
     const FakeEngine fake;
     auto settings = settings_for(fake.command(), fake.command("resign", "1"), 200);

@@ -90,7 +90,7 @@ TEST(TrainSettings, AFolderStaysWithItsGameAndNetwork) {
     EXPECT_EQ(settings_for(folder.path(), slower).learn.rate, 0.25f);
 }
 
-TEST(Settings, ATaughtNetworkNeedsNoRollouts) {
+TEST(TrainSettings, ATaughtNetworkNeedsNoRollouts) {
     Wanted wanted;
     wanted.game = "shogi";
     EXPECT_GT(settings_for({}, wanted).run.rollout_games, 0);
