@@ -45,7 +45,8 @@ void take_papers(Settings& settings) {
 // rarely for a value to be learned from how their games end: rollouts teach it first what men are
 // worth, and a game that is cut off ends as the search expected. Small networks want the present
 // board and who attacks what, not eight boards of the past, and steps that stochastic gradient
-// descent at the usual rate does not take.
+// descent at the usual rate does not take. A game has one result but a hundred positions: a value
+// that learns results alone, or from few games, knows those games by heart.
 void take_laptop_of_men(Settings& settings) {
     settings.network.blocks = 4;
     settings.network.channels = 32;
@@ -55,6 +56,9 @@ void take_laptop_of_men(Settings& settings) {
     settings.learn.rate = 0.003f;
     settings.learn.value_weight = 2;
     settings.replay.judges_cut_off = true;
+    settings.replay.search_share = 0.4f;
+    settings.replay.window = 4000;
+    settings.run.ratio = 1.5f;
     settings.run.rollout_games = 1000;
     const bool chess = settings.game == "chess";
     settings.actors.move_limit = chess ? 160 : 200;
