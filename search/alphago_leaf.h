@@ -58,7 +58,7 @@ struct AlphaGoParams {
     float lambda = 0.5f;        // 0: nothing is played out
     float temperature = 0.67f;  // of the networks' priors
     int batch = 1;              // leaves that the networks are asked about at once
-    int n_thr = 0;              // 0: as many as `share` of the evaluator comes to
+    int n_thr = 0;              // visits at which a leaf gets children; 0: CoreShare says
 };
 
 template <engine::Game G>

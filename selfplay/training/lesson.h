@@ -32,7 +32,8 @@ struct Lesson {
 
 // What the value is taught.
 struct ValueTarget {
-    // Of it that is what the search expected of the position, the rest being how the game ended.
+    // Of it that is what the search expected of the position, the rest being how the game ended;
+    // nothing of it where there was no search, as in games by others.
     float search_share = 0;
     // A game cut off at its limit is taken to end as its last search expected, and not in a draw;
     // what is counted at its end, as in Go, counts all the same.
@@ -124,9 +125,9 @@ inline void write_outcome(const records::Game& record, std::size_t turn, engine:
         to.outcome = rolled_outcome(record.turns[turn]);
     } else {
         to.outcome = final_outcome(record, turn, mover, target);
+        const float share = record.turns[turn].simulations > 0 ? target.search_share : 0;
         const auto expected = expected_outcome(record.turns[turn]);
-        for (std::size_t i = 0; i < 3; ++i)
-            to.outcome[i] += target.search_share * (expected[i] - to.outcome[i]);
+        for (std::size_t i = 0; i < 3; ++i) to.outcome[i] += share * (expected[i] - to.outcome[i]);
     }
     to.value = to.outcome[0] - to.outcome[2];
 }

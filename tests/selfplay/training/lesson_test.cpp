@@ -65,6 +65,14 @@ TYPED_TEST(LessonOf, TheSearchsValueIsTheMoversOwn) {
     EXPECT_FLOAT_EQ(lesson.outcome[2], 0.5f + 0.5f * 0.15f);
 }
 
+// Games by others have no search, whose value then is no verdict either.
+TYPED_TEST(LessonOf, WithoutASearchTheResultIsAll) {
+    auto record = random_record(small_start<TypeParam>(), 1, 4);
+    record.outcome = engine::Outcome::first_wins;
+    record.turns[1].simulations = 0;
+    EXPECT_EQ(lesson_of<TypeParam>(record, 1, 0, "alphazero", {0.5f, false}).value, -1);
+}
+
 // Random play rarely mates: what counts is who won the rollouts that had a winner.
 TYPED_TEST(LessonOf, RolloutsTeachWhoWinsAmongThoseThatAreWon) {
     auto record = random_record(small_start<TypeParam>(), 1, 4);
