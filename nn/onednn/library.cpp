@@ -30,6 +30,7 @@ bool has_avx2() { return reaches(dnnl::cpu_isa::avx2); }
 bool has_avx512() { return reaches(dnnl::cpu_isa::avx512_core); }
 bool has_int8() { return reaches(dnnl::cpu_isa::avx512_core_vnni); }
 bool has_bf16() { return reaches(dnnl::cpu_isa::avx512_core_bf16); }
+bool has_tiles() { return reaches(dnnl::cpu_isa::avx512_core_amx); }
 
 void use_callers_thread() { omp_set_num_threads(1); }
 

@@ -14,6 +14,7 @@ bool has_avx2();
 bool has_avx512();
 bool has_int8();  // VNNI
 bool has_bf16();
+bool has_tiles();  // AMX, of bf16 and int8
 
 // The library's own threads are none of ours: everything runs on the caller's.
 void use_callers_thread();

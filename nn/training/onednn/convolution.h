@@ -15,7 +15,14 @@ namespace nn::training {
 struct Device {
     dnnl::engine engine = onednn::processor();
     dnnl::stream stream{engine};
+    dnnl::memory rows_x = {}, rows_y = {};  // scratch for Rows, as large as was needed so far
 };
+
+// Whether convolutions of this number are computed over rows of channels (NHWC), to which blocks
+// are brought and from which they are taken again: AMX is had in oneDNN for nothing else, and even
+// so is several times faster than vdpbf16ps on the processors that have both.
+template <class Number>
+bool by_rows();
 
 // Number is float or Bf16: of activations and their gradients. Weights come and go in fp32.
 template <class Number>
@@ -38,12 +45,24 @@ class Convolution {
     void make_forward(bool biased);
     void make_backward();
     dnnl::memory memory_of(const dnnl::memory::desc& description, void* place = nullptr) const;
+    // What the library reads or writes for the blocks at `place`; `store` puts what it wrote there.
+    struct Side {
+        dnnl::memory::desc blocks, computed;  // the same unless by rows
+        dnnl::memory Device::*scratch = nullptr;
+        dnnl::reorder to_rows = {}, to_blocks = {};
+    };
+    Side side(const dnnl::memory::dims& dims, dnnl::memory Device::*scratch);
+    dnnl::memory rows_of(const Side& side) const;
+    dnnl::memory load(const Side& side, Number* place) const;
+    dnnl::memory room(const Side& side, Number* place) const;
+    void store(const Side& side, dnnl::memory computed, Number* place) const;
 
     Device& device_;
     // Numbers of one output's kernel, and with its inputs filled up to whole blocks.
     std::size_t outputs_ = 0, row_ = 0, filled_row_ = 0;
     dnnl::memory::dims pad_;
-    dnnl::memory::desc x_, y_, plain_kernel_, any_kernel_, any_gradient_, bias_;
+    Side x_, y_;
+    dnnl::memory::desc plain_kernel_, any_kernel_, any_gradient_, bias_;
     dnnl::convolution_forward::primitive_desc hint_;
     dnnl::convolution_forward forward_;
     dnnl::convolution_backward_data backward_data_;

@@ -15,7 +15,7 @@ ConvolutionStep<Number, Kernel>::ConvolutionStep(Blocked<Number>& blocked, int n
       x_(blocked.tape.input(n, 0)),
       biased_(blocked.tape.node(n).weights.size() > 1),
       convolution_(kernel()) {
-    if constexpr (std::is_same_v<Number, Bf16>)
+    if (std::is_same_v<Number, Bf16> && !by_rows<Number>())
         paired_.emplace(blocked.extent(x_), blocked.extent(n_), side(), blocked.tape.board);
 }
 
@@ -44,9 +44,8 @@ template <class Number, class Kernel>
 void ConvolutionStep<Number, Kernel>::backward() {
     auto* const gradient = blocked_.gradient(n_);
     if constexpr (std::is_same_v<Number, Bf16>)
-        paired_->add(blocked_.value(x_), gradient);
-    else
-        convolution_.backward_weights(blocked_.value(x_), gradient);
+        if (paired_) paired_->add(blocked_.value(x_), gradient);
+    if (!paired_) convolution_.backward_weights(blocked_.value(x_), gradient);
     blocked_.give_gradient(x_, [&](Number* place) { convolution_.backward_data(gradient, place); });
     if (!biased_) return;
     const auto extent = blocked_.extent(n_);
@@ -59,7 +58,7 @@ void ConvolutionStep<Number, Kernel>::backward() {
 template <class Number, class Kernel>
 void ConvolutionStep<Number, Kernel>::collect() {
     auto* const kernel = blocked_.tape.weight_gradient(n_, 0).data();
-    if constexpr (std::is_same_v<Number, Bf16>)
+    if (paired_)
         paired_->collect(kernel);
     else
         convolution_.collect(kernel);

@@ -29,7 +29,7 @@ class ConvolutionStep : public Step {
     int n_, x_;
     bool biased_;
     Kernel convolution_;
-    std::optional<PairedGradient> paired_;  // of bf16, in place of the library's
+    std::optional<PairedGradient> paired_;  // of bf16 without AMX, in place of the library's
 };
 
 // A batch norm with the addition of `residual` (unless -1) and the relu that follow: y =
