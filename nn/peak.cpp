@@ -1,5 +1,13 @@
 #include "nn/peak.h"
 
+#include <array>
+
+#if defined(__x86_64__) && defined(__linux__)
+#include <cpuid.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
 namespace nn {
 
 namespace {
@@ -35,6 +43,63 @@ void run_chains(std::int64_t rounds) {
         : "cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9",
           "xmm10", "xmm11", "xmm12", "xmm13", "xmm14");
 }
+
+#if defined(__linux__)
+
+// AMX: products of tiles, 16 rows of 64 bytes each. The kernel wants to be asked before a process
+// uses them (Linux, Documentation/arch/x86/xstate.rst).
+enum class Tiles : int { bf16, int8 };
+constexpr int tile_chains = 6;
+
+bool has_tiles(Tiles tiles) {
+    constexpr unsigned bf16_bit = 1U << 22, tile_bit = 1U << 24, int8_bit = 1U << 25;
+    const unsigned wanted = tile_bit | (tiles == Tiles::bf16 ? bf16_bit : int8_bit);
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (d & wanted) != wanted) return false;
+    constexpr long request = 0x1023, tile_data = 18;
+    static const bool granted = syscall(SYS_arch_prctl, request, tile_data) == 0;
+    return granted;
+}
+
+template <Tiles tiles>
+void run_tile_chains(std::int64_t rounds) {
+    struct Config {
+        std::uint8_t palette = 1, start = 0;
+        std::array<std::uint8_t, 14> reserved = {};
+        std::array<std::uint16_t, 16> row_bytes = {64, 64, 64, 64, 64, 64, 64, 64};
+        std::array<std::uint8_t, 16> rows = {16, 16, 16, 16, 16, 16, 16, 16};
+    };
+    const Config config;
+    asm volatile(
+        "ldtilecfg %1\n"
+        ".irp r, 0, 1, 2, 3, 4, 5, 6, 7\n tilezero %%tmm\\r\n .endr\n"
+        "1:\n"
+        ".irp r, 0, 1, 2, 3, 4, 5\n"
+        ".if %c2 == 0\n tdpbf16ps %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
+        ".if %c2 == 1\n tdpbusd %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
+        ".endr\n"
+        "dec %0\n jnz 1b\n tilerelease\n"
+        : "+r"(rounds)
+        : "m"(config), "i"(static_cast<int>(tiles))
+        : "cc");
+}
+
+// 0 without them.
+double run_tiles(Precision precision, std::int64_t rounds) {
+    constexpr double bf16_operations = 2.0 * 16 * 16 * 32, int8_operations = 2.0 * 16 * 16 * 64;
+    const auto products = static_cast<double>(rounds) * tile_chains;
+    if (precision == Precision::bf16 && has_tiles(Tiles::bf16))
+        return run_tile_chains<Tiles::bf16>(rounds), products * bf16_operations;
+    if (precision == Precision::int8 && has_tiles(Tiles::int8))
+        return run_tile_chains<Tiles::int8>(rounds), products * int8_operations;
+    return 0;
+}
+
+#else
+
+double run_tiles(Precision, std::int64_t) { return 0; }
+
+#endif
 
 bool has_vnni() {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vnni");
@@ -84,7 +149,9 @@ int run(Unit unit, std::int64_t rounds) {
 double run_multiply_adds([[maybe_unused]] Precision precision,
                          [[maybe_unused]] std::int64_t rounds) {
 #if defined(__x86_64__)
-    if (rounds > 0) return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
+    if (rounds <= 0) return 0;
+    if (const double operations = run_tiles(precision, rounds); operations > 0) return operations;
+    return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
 #endif
     return 0;
 }

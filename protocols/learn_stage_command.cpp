@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "protocols/commands.h"
 #include "protocols/flags.h"
@@ -65,14 +66,20 @@ int learn_policy(Arguments arguments) {
     alphago::StageNetwork network;
     alphago::PolicySettings settings;
     auto learning = alphago::policy_learning();
+    std::string from;
     add_folder_flags(app, input);
     add_record_flags(app, input);
+    app.add_option("--from", from,
+                   "policy network that a new folder goes on from, in place of random weights");
     add_settings_flags(app, network, "Network");
     add_settings_flags(app, settings, "Settings");
     add_settings_flags(app, learning, "Learning");
     if (const auto status = parse_flags(app, arguments)) return *status;
     const StopOnSignal signals;
-    alphago::learn_policy(input, network, settings, learning, signals.token());
+    auto fresh = from.empty()
+                     ? alphago::new_policy(network, static_cast<std::uint64_t>(settings.seed))
+                     : alphago::policy_to_go_on_from(from);
+    alphago::learn_policy(input, std::move(fresh), settings, learning, signals.token());
     return 0;
 }
 

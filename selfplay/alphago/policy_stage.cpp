@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "engine/base/error.h"
 #include "nn/load.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/training/student.h"
@@ -13,21 +15,20 @@ namespace {
 
 class PolicyStage {
    public:
-    PolicyStage(const StageInput& input, const StageNetwork& network,
-                const PolicySettings& settings, const training::LearnSettings& learning,
-                const std::stop_token& stop)
+    PolicyStage(const StageInput& input, nn::Graph fresh, const PolicySettings& settings,
+                const training::LearnSettings& learning, const std::stop_token& stop)
         : input_(input),
           settings_(settings),
           learning_(learning),
           folder_(input.folder),
           state_(folder_.state()),
-          student_(new_policy(network, static_cast<std::uint64_t>(settings.seed)), learning,
-                   input.threads, folder_, input.say),
+          facts_(fresh.facts),
+          student_(std::move(fresh), learning, input.threads, folder_, input.say),
           games_(read_expert_games(
-              input.records, {network.size, settings.least_moves, settings.games}, input.say)),
+              input.records, {facts_.board, settings.least_moves, settings.games}, input.say)),
           lessons_(games_.lessons),
           held_out_(games_.held_out),
-          batches_(network.encoding(), input.threads),
+          batches_(facts_.encoding, input.threads),
           random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
                                 static_cast<std::uint64_t>(student_.steps()))),
           watch_(input, stop) {}
@@ -104,6 +105,7 @@ class PolicyStage {
     const training::LearnSettings& learning_;
     training::RunFolder folder_;
     training::RunState state_;  // before this call
+    nn::Facts facts_;
     training::Student student_;
     ExpertGames games_;
     ExpertPositions lessons_, held_out_;
@@ -129,10 +131,17 @@ training::LearnSettings policy_learning() {
     return learning;
 }
 
-void learn_policy(const StageInput& input, const StageNetwork& network,
-                  const PolicySettings& settings, const training::LearnSettings& learning,
-                  const std::stop_token& stop) {
-    PolicyStage(input, network, settings, learning, stop).run();
+nn::Graph policy_to_go_on_from(const std::filesystem::path& file) {
+    auto graph = nn::load(file);
+    if (graph.facts.game != go::Go::name || !graph.output("policy") || graph.facts.board == 0)
+        engine::fail("{}: expected a policy network of Go on one board", file.string());
+    graph.facts.steps = 0;
+    return graph;
+}
+
+void learn_policy(const StageInput& input, nn::Graph fresh, const PolicySettings& settings,
+                  const training::LearnSettings& learning, const std::stop_token& stop) {
+    PolicyStage(input, std::move(fresh), settings, learning, stop).run();
 }
 
 }  // namespace selfplay::alphago

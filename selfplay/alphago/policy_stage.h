@@ -37,10 +37,13 @@ struct PolicySettings {
 // What learning from records begins with: Adam's steps serve a network without batch norms best.
 training::LearnSettings policy_learning();
 
-// Fails with engine::Error on what cannot be read, on a folder of another network or in use, and
-// when the numbers run away.
-void learn_policy(const StageInput& input, const StageNetwork& network,
-                  const PolicySettings& settings, const training::LearnSettings& learning,
-                  const std::stop_token& stop);
+// A network to go on from, learned before in another folder: it alone is taken from the file, not
+// what its optimiser knew. Fails with engine::Error unless that is a policy of Go on one board.
+nn::Graph policy_to_go_on_from(const std::filesystem::path& file);
+
+// `fresh`: what a new folder begins with. Fails with engine::Error on what cannot be read, on a
+// folder of another network or in use, and when the numbers run away.
+void learn_policy(const StageInput& input, nn::Graph fresh, const PolicySettings& settings,
+                  const training::LearnSettings& learning, const std::stop_token& stop);
 
 }  // namespace selfplay::alphago

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "nn/load.h"
 #include "selfplay/alphago/policy_games.h"
+#include "selfplay/alphago/policy_stage.h"
 #include "selfplay/training/batch.h"
 #include "selfplay/training/student.h"
 
@@ -30,21 +32,13 @@ training::LearnSettings learning(const RlSettings& settings) {
     return learn;
 }
 
-nn::Graph policy_of(const fs::path& path) {
-    auto graph = nn::load(path);
-    if (graph.facts.game != go::Go::name || !graph.output("policy") || graph.facts.board == 0)
-        engine::fail("{}: expected a policy network of Go on one board", path.string());
-    graph.facts.steps = 0;
-    return graph;
-}
-
 class RlStage {
    public:
     RlStage(const StageInput& input, const fs::path& policy, const fs::path& baseline,
             const RlSettings& settings, const std::stop_token& stop)
         : input_(input),
           settings_(settings),
-          first_(policy_of(policy)),
+          first_(policy_to_go_on_from(policy)),
           folder_(input.folder),
           state_(folder_.state()),
           student_(first_, learning(settings), input.threads, folder_, input.say),
@@ -83,9 +77,9 @@ class RlStage {
     }
 
     // The student has Black in every second game.
+    static bool is_black(const Playing& playing) { return playing.number % 2 == 0; }
     static bool is_students(const Playing& playing) {
-        const bool black = playing.number % 2 == 0;
-        return (playing.game.to_play() == engine::Player::first) == black;
+        return (playing.game.to_play() == engine::Player::first) == is_black(playing);
     }
     std::vector<Playing> play(int games, std::shared_ptr<const search::Network> opponent) {
         const Networks networks{playing_network(student_.newest()), std::move(opponent)};
@@ -95,7 +89,7 @@ class RlStage {
     }
     static float students_result(const Playing& playing) {
         return result_for(playing.record,
-                          playing.number % 2 == 0 ? engine::Player::first : engine::Player::second);
+                          is_black(playing) ? engine::Player::first : engine::Player::second);
     }
     static double score(std::span<const Playing> games) {
         double score = 0;
@@ -127,13 +121,17 @@ class RlStage {
 
     void learn(std::span<const Playing> games) {
         const auto& encoding = engine::find_encoding<go::Go>(first_.facts.encoding);
+        const auto [as_white, as_black] = means(games);
         std::vector<training::Lesson> lessons;
         for (const auto& playing : games)
             for (std::size_t turn = 0; turn < playing.record.turns.size(); ++turn) {
                 if (playing.record.turns[turn].share_count == 0) continue;
-                training::write_lesson(playing.record, turn, encoding, 0, {},
-                                       lessons.emplace_back());
-                lessons.back().policy_weight = students_result(playing) - expected(playing, turn);
+                auto& lesson = lessons.emplace_back();
+                training::write_lesson(playing.record, turn, encoding, 0, {}, lesson);
+                keep_sensible(training::position_of<go::Go>(playing.record, turn), lesson);
+                const float mean = is_black(playing) ? as_black : as_white;
+                lesson.policy_weight =
+                    students_result(playing) - (baseline_ ? expected(playing, turn) : mean);
             }
         training::Batch batch;
         batch.fill(lessons, size(), student_.terms());
@@ -141,9 +139,19 @@ class RlStage {
         student_.take_quality();
     }
 
-    // What the baseline says of the position, as the student sees it; 0 without one.
+    // The mean results of the student's games as White and as Black. Without a baseline a student
+    // that wins three games of four is told to do more of nearly all it does, and goes astray.
+    static std::array<float, 2> means(std::span<const Playing> games) {
+        std::array<float, 2> sums{}, counts{};
+        for (const auto& playing : games) {
+            sums[is_black(playing)] += students_result(playing);
+            ++counts[is_black(playing)];
+        }
+        return {sums[0] / std::max(counts[0], 1.0f), sums[1] / std::max(counts[1], 1.0f)};
+    }
+
+    // What the baseline says of the position, as the student sees it.
     float expected(const Playing& playing, std::size_t turn) {
-        if (!baseline_) return 0;
         const auto game = training::position_of<go::Go>(playing.record, turn);
         const engine::MoveList none;
         search::Evaluation answer;
@@ -189,6 +197,20 @@ class RlStage {
 };
 
 }  // namespace
+
+void keep_sensible(const go::Go& game, training::Lesson& lesson) {
+    const auto sensible = search::PolicyPlayer<go::Go>::sensible(game);
+    std::size_t from = 0, kept = 0;
+    for (const auto move : game.legal_moves()) {
+        if (sensible.contains(move)) {
+            lesson.moves[kept] = lesson.moves[from];
+            lesson.policy[kept++] = lesson.policy[from];
+        }
+        ++from;
+    }
+    lesson.moves.resize(kept);
+    lesson.policy.resize(kept);
+}
 
 void learn_rl(const StageInput& input, const fs::path& policy, const fs::path& baseline,
               const RlSettings& settings, const std::stop_token& stop) {

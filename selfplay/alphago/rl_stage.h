@@ -7,6 +7,7 @@
 
 #include "engine/base/option.h"
 #include "selfplay/alphago/stage.h"
+#include "selfplay/training/lesson.h"
 
 namespace selfplay::alphago {
 
@@ -14,7 +15,7 @@ struct RlSettings {
     int seed = 1;
     int games = 128;
     int updates = 0;
-    float rate = 0.05f;
+    float rate = 0.01f;
     float most_norm = 1;
     int snapshot_updates = 20;
     int judge_games = 100;
@@ -41,8 +42,15 @@ struct RlSettings {
     }
 };
 
+// Takes from the lesson of this position, whose moves are the legal ones in their order, those that
+// a policy without search never draws: the pass and filled eyes. The softmax it learns by is then
+// the one it was drawn from; else moves that lost would be unlearned for the pass, the likeliest
+// ones most, and play would go flat wherever it loses.
+void keep_sensible(const go::Go& game, training::Lesson& lesson);
+
 // `policy`: the file to begin with. `baseline`: a value network whose word is taken off each
-// result, or empty. Fails with engine::Error on what cannot be read and when the numbers run away.
+// result, or empty: then the mean result of the update's games of that colour is. Fails with
+// engine::Error on what cannot be read and when the numbers run away.
 void learn_rl(const StageInput& input, const std::filesystem::path& policy,
               const std::filesystem::path& baseline, const RlSettings& settings,
               const std::stop_token& stop);

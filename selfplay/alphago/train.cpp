@@ -79,7 +79,8 @@ class Training {
         settings.seed = settings_.seed;
         settings.games = settings_.games;
         settings.steps = settings_.policy_steps;
-        learn_policy(stage, network_, settings, policy_learning(), stop_);
+        learn_policy(stage, new_policy(network_, static_cast<std::uint64_t>(settings.seed)),
+                     settings, policy_learning(), stop_);
     }
     void rl(const StageInput& stage) const {
         RlSettings settings;

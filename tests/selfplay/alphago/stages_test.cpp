@@ -20,6 +20,7 @@
 #include "selfplay/alphago/train.h"
 #include "selfplay/alphago/value_stage.h"
 #include "selfplay/records/segment.h"
+#include "tests/engine/go_position.h"
 #include "tests/temporary_folder.h"
 
 namespace selfplay::alphago {
@@ -129,16 +130,39 @@ TEST(PolicyStage, LearnsAndGoesOn) {
         const StageNetwork network{2, 8, 5, planes};
         stage.lines.clear();
         settings.steps = 150;
-        learn_policy(stage.input, network, settings, learning, {});
+        learn_policy(stage.input, new_policy(network, 1), settings, learning, {});
         ASSERT_EQ(stage.lines.size(), 1u);
         EXPECT_GT(stage.lines[0]["held_out_accuracy"], 0.6);
         settings.steps = 151;
-        learn_policy(stage.input, network, settings, learning, {});
+        learn_policy(stage.input, new_policy(network, 1), settings, learning, {});
         ASSERT_EQ(stage.lines.size(), 2u);
         EXPECT_EQ(stage.lines[1]["steps"], 151);
         EXPECT_GT(stage.lines[1]["held_out_accuracy"], 0.6);
         EXPECT_EQ(nn::load(stage.input.folder / "latest.safetensors").facts.steps, 151);
     }
+}
+
+TEST(PolicyStage, GoesOnFromAFileInAnotherFolder) {
+    Stage stage;
+    PolicySettings settings;
+    settings.least_moves = 3;
+    settings.judged = 24;
+    settings.steps = 150;
+    auto learning = policy_learning();
+    learning.batch = 16;
+    learning.rate = 0.01f;
+    learning.warm_up = 0;
+    learning.average = 0;
+    learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, learning, {});
+    const auto learned = stage.input.folder / "latest.safetensors";
+    stage.input.folder = stage.folder.path() / "further";
+    settings.steps = 1;
+    learn_policy(stage.input, policy_to_go_on_from(learned), settings, learning, {});
+    EXPECT_EQ(stage.lines.back()["steps"], 1);
+    EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
+    const auto value = stage.folder.path() / "value.safetensors";
+    nn::save(new_value({2, 8, 5}, 1), value);
+    EXPECT_THROW(policy_to_go_on_from(value), engine::Error);
 }
 
 TEST(PolicyStage, RefusesAFolderOfAnotherNetwork) {
@@ -149,8 +173,9 @@ TEST(PolicyStage, RefusesAFolderOfAnotherNetwork) {
     settings.judged = 4;
     auto learning = policy_learning();
     learning.batch = 4;
-    learn_policy(stage.input, {2, 8, 5}, settings, learning, {});
-    EXPECT_THROW(learn_policy(stage.input, {3, 8, 5}, settings, learning, {}), engine::Error);
+    learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, learning, {});
+    EXPECT_THROW(learn_policy(stage.input, new_policy({3, 8, 5}, 1), settings, learning, {}),
+                 engine::Error);
 }
 
 fs::path saved_policy(const Stage& stage, std::uint64_t seed) {
@@ -205,6 +230,29 @@ TEST(RlStage, UpdatesSnapshotsAndGoesOn) {
     nn::save(new_value({2, 8, 5}, 3), stage.folder.path() / "baseline.safetensors");
     learn_rl(stage.input, policy, stage.folder.path() / "baseline.safetensors", settings, {});
     EXPECT_EQ(stage.lines.back()["update"], 3);
+}
+
+TEST(RlStage, TeachesAmongTheSensibleMovesAlone) {
+    const auto game = go::position({". X . X .",  //
+                                    "X X X X X",  //
+                                    ". . . . .",  //
+                                    ". O . . .",  //
+                                    ". . . . ."});
+    training::Lesson lesson;
+    std::vector<int> sensible;
+    int place = 0;
+    for (const auto move : game.legal_moves()) {
+        if (move != go::Go::pass && !game.fills_own_eye(move)) sensible.push_back(place);
+        lesson.moves.push_back(place);
+        lesson.policy.push_back(static_cast<float>(place++));
+    }
+    keep_sensible(game, lesson);
+    EXPECT_EQ(lesson.moves, sensible);
+    EXPECT_EQ(sensible.size(), lesson.policy.size());
+    EXPECT_EQ(place, 14 + 3 + 1);  // the open points, three eyes, the pass
+    EXPECT_EQ(sensible.size(), 14u);
+    for (std::size_t i = 0; i < sensible.size(); ++i)
+        EXPECT_EQ(lesson.policy[i], static_cast<float>(sensible[i]));
 }
 
 // What wins is made likelier: a game that one move decides.
