@@ -115,16 +115,26 @@ TEST(RolloutStage, LearnsAndGoesOn) {
     EXPECT_LT(stage.lines[1]["positions"], 2200);
 }
 
-TEST(PolicyStage, LearnsAndGoesOn) {
-    Stage stage;
+PolicySettings short_games() {
     PolicySettings settings;
     settings.least_moves = 3;
     settings.judged = 24;
+    return settings;
+}
+
+training::LearnSettings fast_learning() {
     auto learning = policy_learning();
     learning.batch = 16;
     learning.rate = 0.01f;
     learning.warm_up = 0;
     learning.average = 0;
+    return learning;
+}
+
+TEST(PolicyStage, LearnsAndGoesOn) {
+    Stage stage;
+    auto settings = short_games();
+    const auto learning = fast_learning();
     for (const auto planes : {Planes::all, Planes::raw}) {
         stage.input.folder = stage.folder.path() / planes_names[static_cast<std::size_t>(planes)];
         const StageNetwork network{2, 8, 5, planes};
@@ -144,15 +154,9 @@ TEST(PolicyStage, LearnsAndGoesOn) {
 
 TEST(PolicyStage, GoesOnFromAFileInAnotherFolder) {
     Stage stage;
-    PolicySettings settings;
-    settings.least_moves = 3;
-    settings.judged = 24;
+    auto settings = short_games();
     settings.steps = 150;
-    auto learning = policy_learning();
-    learning.batch = 16;
-    learning.rate = 0.01f;
-    learning.warm_up = 0;
-    learning.average = 0;
+    const auto learning = fast_learning();
     learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, learning, {});
     const auto learned = stage.input.folder / "latest.safetensors";
     stage.input.folder = stage.folder.path() / "further";
