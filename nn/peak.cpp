@@ -15,7 +15,17 @@ namespace {
 #if defined(__x86_64__)
 
 // One instruction a multiply-add, but for int16 in AVX2: a product of pairs and a sum.
-enum class Unit : int { none, fp32_256, fp32_512, bf16_512, int8_512, int16_256, int16_512 };
+enum class Unit : int {
+    none,
+    fp32_256,
+    fp32_512,
+    bf16_512,
+    int8_512,
+    int16_256,
+    int16_512,
+    bf16_tiles,
+    int8_tiles
+};
 
 constexpr int chains = 12;  // enough to hide an instruction's latency
 
@@ -44,25 +54,9 @@ void run_chains(std::int64_t rounds) {
           "xmm10", "xmm11", "xmm12", "xmm13", "xmm14");
 }
 
-#if defined(__linux__)
-
-// AMX: products of tiles, 16 rows of 64 bytes each. The kernel wants to be asked before a process
-// uses them (Linux, Documentation/arch/x86/xstate.rst).
-enum class Tiles : int { bf16, int8 };
-constexpr int tile_chains = 6;
-
-bool has_tiles(Tiles tiles) {
-    constexpr unsigned bf16_bit = 1U << 22, tile_bit = 1U << 24, int8_bit = 1U << 25;
-    const unsigned wanted = tile_bit | (tiles == Tiles::bf16 ? bf16_bit : int8_bit);
-    unsigned a = 0, b = 0, c = 0, d = 0;
-    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (d & wanted) != wanted) return false;
-    constexpr long request = 0x1023, tile_data = 18;
-    static const bool granted = syscall(SYS_arch_prctl, request, tile_data) == 0;
-    return granted;
-}
-
-template <Tiles tiles>
-void run_tile_chains(std::int64_t rounds) {
+// AMX: products of tiles, 16 rows of 64 bytes each, in six chains twice a round.
+template <Unit unit>
+void run_tiles(std::int64_t rounds) {
     struct Config {
         std::uint8_t palette = 1, start = 0;
         std::array<std::uint8_t, 14> reserved = {};
@@ -74,45 +68,47 @@ void run_tile_chains(std::int64_t rounds) {
         "ldtilecfg %1\n"
         ".irp r, 0, 1, 2, 3, 4, 5, 6, 7\n tilezero %%tmm\\r\n .endr\n"
         "1:\n"
-        ".irp r, 0, 1, 2, 3, 4, 5\n"
-        ".if %c2 == 0\n tdpbf16ps %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
-        ".if %c2 == 1\n tdpbusd %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
+        ".irp r, 0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5\n"
+        ".if %c2 == 7\n tdpbf16ps %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
+        ".if %c2 == 8\n tdpbusd %%tmm7, %%tmm6, %%tmm\\r\n .endif\n"
         ".endr\n"
         "dec %0\n jnz 1b\n tilerelease\n"
         : "+r"(rounds)
-        : "m"(config), "i"(static_cast<int>(tiles))
+        : "m"(config), "i"(static_cast<int>(unit))
         : "cc");
 }
 
-// 0 without them.
-double run_tiles(Precision precision, std::int64_t rounds) {
-    constexpr double bf16_operations = 2.0 * 16 * 16 * 32, int8_operations = 2.0 * 16 * 16 * 64;
-    const auto products = static_cast<double>(rounds) * tile_chains;
-    if (precision == Precision::bf16 && has_tiles(Tiles::bf16))
-        return run_tile_chains<Tiles::bf16>(rounds), products * bf16_operations;
-    if (precision == Precision::int8 && has_tiles(Tiles::int8))
-        return run_tile_chains<Tiles::int8>(rounds), products * int8_operations;
-    return 0;
-}
-
+// The kernel wants to be asked before a process uses tiles (Linux,
+// Documentation/arch/x86/xstate.rst).
+bool has_tiles([[maybe_unused]] unsigned format_bit) {
+#if defined(__linux__)
+    constexpr unsigned tile_bit = 1U << 24;
+    const unsigned wanted = tile_bit | format_bit;
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d) || (d & wanted) != wanted) return false;
+    constexpr long request = 0x1023, tile_data = 18;
+    static const bool granted = syscall(SYS_arch_prctl, request, tile_data) == 0;
+    return granted;
 #else
-
-double run_tiles(Precision, std::int64_t) { return 0; }
-
+    return false;
 #endif
+}
 
 bool has_vnni() {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vnni");
 }
 
 Unit unit_for(Precision precision) {
+    constexpr unsigned bf16_bit = 1U << 22, int8_bit = 1U << 25;
     switch (precision) {
         case Precision::fp32:
             if (__builtin_cpu_supports("avx512f")) return Unit::fp32_512;
             return __builtin_cpu_supports("fma") ? Unit::fp32_256 : Unit::none;
         case Precision::bf16:
+            if (has_tiles(bf16_bit)) return Unit::bf16_tiles;
             return __builtin_cpu_supports("avx512bf16") ? Unit::bf16_512 : Unit::none;
         case Precision::int8:
+            if (has_tiles(int8_bit)) return Unit::int8_tiles;
             return has_vnni() ? Unit::int8_512 : Unit::none;
         case Precision::int16:
             if (has_vnni()) return Unit::int16_512;
@@ -136,6 +132,10 @@ int run(Unit unit, std::int64_t rounds) {
             return run_chains<Unit::int16_256>(rounds), 32;
         case Unit::int16_512:
             return run_chains<Unit::int16_512>(rounds), 64;
+        case Unit::bf16_tiles:
+            return run_tiles<Unit::bf16_tiles>(rounds), 2 * 16 * 16 * 32;
+        case Unit::int8_tiles:
+            return run_tiles<Unit::int8_tiles>(rounds), 2 * 16 * 16 * 64;
         case Unit::none:
             break;
     }
@@ -149,9 +149,7 @@ int run(Unit unit, std::int64_t rounds) {
 double run_multiply_adds([[maybe_unused]] Precision precision,
                          [[maybe_unused]] std::int64_t rounds) {
 #if defined(__x86_64__)
-    if (rounds <= 0) return 0;
-    if (const double operations = run_tiles(precision, rounds); operations > 0) return operations;
-    return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
+    if (rounds > 0) return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
 #endif
     return 0;
 }

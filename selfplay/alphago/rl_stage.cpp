@@ -121,17 +121,17 @@ class RlStage {
 
     void learn(std::span<const Playing> games) {
         const auto& encoding = engine::find_encoding<go::Go>(first_.facts.encoding);
-        const auto [as_white, as_black] = means(games);
+        const auto means = mean_results(games);
         std::vector<training::Lesson> lessons;
         for (const auto& playing : games)
             for (std::size_t turn = 0; turn < playing.record.turns.size(); ++turn) {
                 if (playing.record.turns[turn].share_count == 0) continue;
                 auto& lesson = lessons.emplace_back();
                 training::write_lesson(playing.record, turn, encoding, 0, {}, lesson);
-                keep_sensible(training::position_of<go::Go>(playing.record, turn), lesson);
-                const float mean = is_black(playing) ? as_black : as_white;
-                lesson.policy_weight =
-                    students_result(playing) - (baseline_ ? expected(playing, turn) : mean);
+                const auto game = training::position_of<go::Go>(playing.record, turn);
+                keep_sensible(game, lesson);
+                lesson.policy_weight = students_result(playing) -
+                                       (baseline_ ? expected(game) : means[is_black(playing)]);
             }
         training::Batch batch;
         batch.fill(lessons, size(), student_.terms());
@@ -139,9 +139,9 @@ class RlStage {
         student_.take_quality();
     }
 
-    // The mean results of the student's games as White and as Black. Without a baseline a student
+    // Of the student's games as White and as Black. Without a baseline a student
     // that wins three games of four is told to do more of nearly all it does, and goes astray.
-    static std::array<float, 2> means(std::span<const Playing> games) {
+    static std::array<float, 2> mean_results(std::span<const Playing> games) {
         std::array<float, 2> sums{}, counts{};
         for (const auto& playing : games) {
             sums[is_black(playing)] += students_result(playing);
@@ -151,8 +151,7 @@ class RlStage {
     }
 
     // What the baseline says of the position, as the student sees it.
-    float expected(const Playing& playing, std::size_t turn) {
-        const auto game = training::position_of<go::Go>(playing.record, turn);
+    float expected(const go::Go& game) {
         const engine::MoveList none;
         search::Evaluation answer;
         const search::Query<go::Go> query{&game, &none, 0, &answer};

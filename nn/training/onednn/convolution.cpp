@@ -116,7 +116,7 @@ memory Convolution<Number>::room(const Side& side, Number* place) const {
 }
 
 template <class Number>
-memory Convolution<Number>::load(const Side& side, Number* place) const {
+memory Convolution<Number>::fetch(const Side& side, Number* place) const {
     auto computed = room(side, place);
     if (!side.scratch) return computed;
     auto blocks = memory_of(side.blocks, place);
@@ -148,7 +148,7 @@ template <class Number>
 void Convolution<Number>::forward(Number* x, Number* y) {
     const auto written = room(y_, y);
     std::unordered_map<int, memory> arguments = {
-        {DNNL_ARG_SRC, load(x_, x)}, {DNNL_ARG_WEIGHTS, forward_kernel_}, {DNNL_ARG_DST, written}};
+        {DNNL_ARG_SRC, fetch(x_, x)}, {DNNL_ARG_WEIGHTS, forward_kernel_}, {DNNL_ARG_DST, written}};
     if (bias_values_) arguments[DNNL_ARG_BIAS] = bias_values_;
     forward_.execute(device_.stream, arguments);
     store(y_, written, y);
@@ -157,7 +157,7 @@ void Convolution<Number>::forward(Number* x, Number* y) {
 template <class Number>
 void Convolution<Number>::backward_data(Number* y_gradient, Number* x_gradient) {
     const auto written = room(x_, x_gradient);
-    backward_data_.execute(device_.stream, {{DNNL_ARG_DIFF_DST, load(y_, y_gradient)},
+    backward_data_.execute(device_.stream, {{DNNL_ARG_DIFF_DST, fetch(y_, y_gradient)},
                                             {DNNL_ARG_WEIGHTS, backward_kernel_},
                                             {DNNL_ARG_DIFF_SRC, written}});
     store(x_, written, x_gradient);
@@ -165,8 +165,8 @@ void Convolution<Number>::backward_data(Number* y_gradient, Number* x_gradient) 
 
 template <class Number>
 void Convolution<Number>::backward_weights(Number* x, Number* y_gradient) {
-    backward_weights_.execute(device_.stream, {{DNNL_ARG_SRC, load(x_, x)},
-                                               {DNNL_ARG_DIFF_DST, load(y_, y_gradient)},
+    backward_weights_.execute(device_.stream, {{DNNL_ARG_SRC, fetch(x_, x)},
+                                               {DNNL_ARG_DIFF_DST, fetch(y_, y_gradient)},
                                                {DNNL_ARG_DIFF_WEIGHTS, gradient_}});
     const auto* const gradient = static_cast<const float*>(gradient_.get_data_handle());
     for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i] += gradient[i];

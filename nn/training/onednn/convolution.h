@@ -53,7 +53,7 @@ class Convolution {
     };
     Side side(const dnnl::memory::dims& dims, dnnl::memory Device::*scratch);
     dnnl::memory rows_of(const Side& side) const;
-    dnnl::memory load(const Side& side, Number* place) const;
+    dnnl::memory fetch(const Side& side, Number* place) const;
     dnnl::memory room(const Side& side, Number* place) const;
     void store(const Side& side, dnnl::memory computed, Number* place) const;
 
