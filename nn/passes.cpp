@@ -128,7 +128,54 @@ void drop_dead_nodes(Graph& graph) {
     for (auto& output : graph.outputs) output.node = moved[at(output.node)];
 }
 
+// The convolutions that one activation reads and nothing else.
+std::vector<bool> before_activations(const Graph& graph) {
+    const auto uses = use_counts(graph);
+    std::vector<bool> found(graph.nodes.size(), false);
+    for (const auto& node : graph.nodes) {
+        if (node.operation != Operation::activation) continue;
+        const auto before = at(node.inputs[0]);
+        found[before] = graph.nodes[before].operation == Operation::convolution &&
+                        linear(graph.nodes[before]) && uses[before] == 1;
+    }
+    return found;
+}
+
+// A norm that adds the layer's bias and takes it from there.
+Node norm_after(Node& layer, int place) {
+    constexpr float epsilon = 1e-5f;
+    const int channels = layer.weights[0].shape[0];
+    const auto filled = [&](float value) {
+        return Tensor{{channels}, std::vector<float>(static_cast<std::size_t>(channels), value)};
+    };
+    Node norm{.operation = Operation::batch_norm, .name = layer.name + ".norm", .inputs = {place}};
+    norm.weights = {filled(0), filled(1 - epsilon), filled(1), filled(0)};
+    norm.epsilon = epsilon;
+    if (layer.weights.size() == 2) {
+        norm.weights[3] = std::move(layer.weights[1]);
+        layer.weights.pop_back();
+    }
+    return norm;
+}
+
 }  // namespace
+
+Graph unfold_batch_norms(const Graph& graph) {
+    const auto normed = before_activations(graph);
+    Graph unfolded = graph;
+    unfolded.nodes.clear();
+    std::vector<int> moved;  // where whoever read a node reads now
+    for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+        Node node = graph.nodes[i];
+        for (int& input : node.inputs) input = moved[at(input)];
+        moved.push_back(unfolded.append(std::move(node)));
+        if (!normed[i]) continue;
+        Node norm = norm_after(unfolded.nodes.back(), moved.back());
+        moved.back() = unfolded.append(std::move(norm));
+    }
+    for (auto& output : unfolded.outputs) output.node = moved[at(output.node)];
+    return unfolded;
+}
 
 Graph fold_batch_norms(Graph graph) {
     const auto uses = use_counts(graph);

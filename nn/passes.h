@@ -10,6 +10,11 @@ namespace nn {
 // that layer, else an affine operation.
 Graph fold_batch_norms(Graph graph);
 
+// The way back, for a network that is to learn on: every convolution that an activation alone reads
+// gets a batch norm in place of its bias. What it computes stays while the norm's statistics do;
+// nn/training/norms.h gives it those of a batch.
+Graph unfold_batch_norms(const Graph& graph);
+
 // An activation, and an addition of a residual, become part of the operation before them.
 Graph fuse(Graph graph);
 

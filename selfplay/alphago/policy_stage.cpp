@@ -6,6 +6,8 @@
 
 #include "engine/base/error.h"
 #include "nn/load.h"
+#include "nn/passes.h"
+#include "nn/training/norms.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/training/student.h"
 
@@ -23,12 +25,12 @@ class PolicyStage {
           folder_(input.folder),
           state_(folder_.state()),
           facts_(fresh.facts),
-          student_(std::move(fresh), learning, input.threads, folder_, input.say),
           games_(read_expert_games(
               input.records, {facts_.board, settings.least_moves, settings.games}, input.say)),
           lessons_(games_.lessons),
           held_out_(games_.held_out),
           batches_(facts_.encoding, input.threads),
+          student_(begin(std::move(fresh)), learning, input.threads, folder_, input.say),
           random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
                                 static_cast<std::uint64_t>(student_.steps()))),
           watch_(input, stop) {}
@@ -45,18 +47,19 @@ class PolicyStage {
     }
 
    private:
+    // What a new folder begins with.
+    nn::Graph begin(nn::Graph fresh) {
+        if (!settings_.norms) return fresh;
+        auto normed = nn::unfold_batch_norms(fresh);
+        const auto learner = training::learner_settings(learning_, normed, input_.threads);
+        engine::Random random(static_cast<std::uint64_t>(settings_.seed));
+        const auto& samples = draw(random, learner.terms);
+        return nn::training::fit_norms(std::move(normed), samples, learner);
+    }
+
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
 
-    void learn() {
-        constexpr int symmetries = 8;
-        places_.clear();
-        turns_.clear();
-        for (int i = 0; i < learning_.batch; ++i) {
-            places_.push_back(lessons_.draw(random_));
-            turns_.push_back(random_.below(symmetries));
-        }
-        student_.learn(batches_.make(places_, turns_, student_.terms()));
-    }
+    void learn() { student_.learn(draw(random_, student_.terms())); }
 
     // Always the same positions, spread over all that are held out, seen as they stand.
     training::Quality judge() {
@@ -76,7 +79,8 @@ class PolicyStage {
 
     void report() {
         student_.save();
-        nn::save(student_.playable(samples()), folder_.latest());
+        nn::save(nn::fold_batch_norms(student_.playable(draw(random_, student_.terms()))),
+                 folder_.latest());
         const auto learned = student_.take_quality();
         const auto held_out = judge();
         auto now = state_;
@@ -93,11 +97,16 @@ class PolicyStage {
         tell(input_, input_.folder / "policy.jsonl", line.dump());
     }
 
-    // Some positions for whoever measures statistics.
-    const nn::training::Samples& samples() {
-        places_.assign(1, lessons_.draw(random_));
-        turns_.assign(1, 0);
-        return batches_.make(places_, turns_, student_.terms());
+    const nn::training::Samples& draw(engine::Random& random,
+                                      std::span<const nn::training::Term> terms) {
+        constexpr int symmetries = 8;
+        places_.clear();
+        turns_.clear();
+        for (int i = 0; i < learning_.batch; ++i) {
+            places_.push_back(lessons_.draw(random));
+            turns_.push_back(random.below(symmetries));
+        }
+        return batches_.make(places_, turns_, terms);
     }
 
     const StageInput& input_;
@@ -106,14 +115,14 @@ class PolicyStage {
     training::RunFolder folder_;
     training::RunState state_;  // before this call
     nn::Facts facts_;
-    training::Student student_;
     ExpertGames games_;
     ExpertPositions lessons_, held_out_;
     ExpertBatches batches_;
-    engine::Random random_;
-    Watch watch_;
     std::vector<ExpertPlace> places_;
     std::vector<int> turns_;
+    training::Student student_;
+    engine::Random random_;
+    Watch watch_;
 };
 
 }  // namespace

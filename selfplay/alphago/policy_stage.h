@@ -17,8 +17,10 @@ struct PolicySettings {
     int steps = 0;
     int judged = 2000;
     int report_seconds = 60;
+    bool norms = true;
 
     static constexpr auto options() {
+        using engine::Flag;
         using engine::Option;
         using P = PolicySettings;
         return std::tuple{
@@ -30,11 +32,14 @@ struct PolicySettings {
             Option<P, int>{"judged", &P::judged, 1, 1'000'000, "positions held out, in a report"},
             Option<P, int>{"report-seconds", &P::report_seconds, 1, 100'000,
                            "between two reports, each with a checkpoint"},
+            Flag<P>{"norms", &P::norms,
+                    "batch norms while it learns, folded away in the network that plays; the "
+                    "paper: none"},
         };
     }
 };
 
-// What learning from records begins with: Adam's steps serve a network without batch norms best.
+// What learning from records begins with: Adam's steps serve networks without batch norms best.
 training::LearnSettings policy_learning();
 
 // A network to go on from, learned before in another folder: it alone is taken from the file, not

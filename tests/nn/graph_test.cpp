@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "naive.h"
+#include "nn/builders.h"
 #include "nn/compose.h"
+#include "nn/eigen/executor.h"
 #include "nn/passes.h"
 
 namespace nn {
@@ -134,6 +138,26 @@ TEST(Passes, KeepWhatTheNetworkComputes) {
         for (std::size_t i = 0; i < expected.size(); ++i)
             EXPECT_NEAR(found[i], expected[i], 1e-4) << output.name << ' ' << i;
     }
+}
+
+// As a network learns on that has learned without norms.
+TEST(Passes, BatchNormsThatAreUnfoldedChangeNothingAndFoldAgain) {
+    engine::Random random(9);
+    Facts facts;
+    facts.board = 5;
+    facts.channels = 6;
+    facts.blocks = 3;
+    const auto plain = build_alphago_policy(facts, 4, random);
+    const auto normed = unfold_batch_norms(plain);
+    validate(normed);
+    const auto norms = std::ranges::count(normed.nodes, Operation::batch_norm, &Node::operation);
+    EXPECT_EQ(norms, 3);
+    EXPECT_EQ(parameter_count(normed), parameter_count(plain) + 3 * 3 * 6);
+    const auto executor = eigen::Program(normed).make_executor();
+    EXPECT_LT(naive::worst_difference(plain, *executor, 5, 4, random), 1e-4);
+    const auto folded = fold_batch_norms(normed);
+    EXPECT_EQ(folded.nodes.size(), plain.nodes.size());
+    EXPECT_EQ(parameter_count(folded), parameter_count(plain));
 }
 
 TEST(Passes, DropWhatNoOutputNeeds) {

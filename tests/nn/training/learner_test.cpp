@@ -11,6 +11,8 @@
 #include "engine/base/files.h"
 #include "nn/eigen/executor.h"
 #include "nn/load.h"
+#include "nn/passes.h"
+#include "nn/training/norms.h"
 #include "problem.h"
 
 namespace nn::training {
@@ -76,6 +78,27 @@ TEST(Learner, AlphaGosNetworksLearnABatchByHeart) {
         const auto report = learned_by_heart(graph, quick(0.003f), 200, 5);
         EXPECT_LT(report.costs[0].mean_loss(), 0.05) << graph.outputs[0].name;
     }
+}
+
+// Norms measured on a batch compute, by that batch's statistics and by their own, what the network
+// computed without them.
+TEST(Norms, FittedToABatchTheyChangeNothing) {
+    engine::Random random(6);
+    Facts facts;
+    facts.board = 5;
+    facts.channels = 8;
+    facts.blocks = 4;
+    const auto plain = build_alphago_policy(facts, 6, random);
+    const Problem problem(plain, 5, 16);
+    const auto settings = quick(0.001f);
+    const auto before = Learner(plain, settings).evaluate(problem.samples);
+    const auto fitted = fit_norms(unfold_batch_norms(plain), problem.samples, settings);
+    const auto& first = fitted.nodes[2];
+    ASSERT_EQ(first.operation, Operation::batch_norm);
+    EXPECT_NE(first.weights[0].values[0], 0);
+    Learner learner(fitted, settings);
+    EXPECT_NEAR(learner.evaluate(problem.samples).loss, before.loss, 0.01);
+    EXPECT_NEAR(learner.step(problem.samples).loss, before.loss, 0.01);
 }
 
 TEST(Learner, PlainLayersLearnAToyProblemInStatedTime) {

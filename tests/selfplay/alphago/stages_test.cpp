@@ -152,6 +152,28 @@ TEST(PolicyStage, LearnsAndGoesOn) {
     }
 }
 
+// The paper's network plays, whether it was normed while it learned or not.
+TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
+    Stage stage;
+    auto settings = short_games();
+    settings.steps = 150;
+    for (const bool norms : {false, true}) {
+        settings.norms = norms;
+        stage.input.folder = stage.folder.path() / (norms ? "normed" : "plain");
+        learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, fast_learning(), {});
+        EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
+        const auto plays = nn::load(stage.input.folder / "latest.safetensors");
+        for (const auto& node : plays.nodes)
+            EXPECT_NE(node.operation, nn::Operation::batch_norm) << node.name;
+        // A pool of policies and a further folder go on from it as it is.
+        stage.input.folder += "-further";
+        settings.steps = 1;
+        learn_policy(stage.input, plays, settings, fast_learning(), {});
+        EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
+        settings.steps = 150;
+    }
+}
+
 TEST(PolicyStage, GoesOnFromAFileInAnotherFolder) {
     Stage stage;
     auto settings = short_games();
