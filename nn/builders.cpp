@@ -14,7 +14,6 @@ using engine::fail;
 
 constexpr int pooled_width = 32;  // channels of a head that is pooled
 constexpr int alphago_layers = 12;
-constexpr float epsilon = 1e-5f;
 
 // Box and Muller 1958, so that a seed gives the same weights with every standard library.
 float normal(engine::Random& random) {
@@ -61,7 +60,7 @@ class Builder {
         x = add_convolution(graph_, name, x, {weights({out, in, side, side})});
         return add_batch_norm(
             graph_, name + ".norm", x,
-            {constant(out, 0), constant(out, 1), constant(out, 1), constant(out, 0)}, epsilon);
+            {constant(out, 0), constant(out, 1), constant(out, 1), constant(out, 0)});
     }
     int normed_relu(const std::string& name, int x, int in, int out, int side) {
         return relu(name, normed(name, x, in, out, side));

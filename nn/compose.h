@@ -33,9 +33,11 @@ inline int add_dense(Graph& graph, std::string name, int input, std::vector<Tens
     return add_operation(graph, Operation::dense, std::move(name), {input}, std::move(weights));
 }
 
+inline constexpr float usual_epsilon = 1e-5f;  // of a batch norm of our own networks
+
 // `weights` as Operation::batch_norm lists them.
 inline int add_batch_norm(Graph& graph, std::string name, int input, std::vector<Tensor> weights,
-                          float epsilon) {
+                          float epsilon = usual_epsilon) {
     Node node{Operation::batch_norm, std::move(name), {input}, std::move(weights)};
     node.epsilon = epsilon;
     return graph.append(std::move(node));

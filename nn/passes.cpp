@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nn/compose.h"
 #include "nn/index.h"
 
 namespace nn {
@@ -30,9 +31,7 @@ void fold_to_affine(Node& node) {
     auto& scale = node.weights[2].values;
     auto& shift = node.weights[3].values;
     for (std::size_t c = 0; c < scale.size(); ++c) {
-        const double deviation =
-            std::sqrt(double{node.weights[1].values[c]} + double{node.epsilon});
-        const double factor = scale[c] / deviation;
+        const double factor = scale[c] / deviation(node, c);
         shift[c] = static_cast<float>(shift[c] - factor * node.weights[0].values[c]);
         scale[c] = static_cast<float>(factor);
     }
@@ -141,24 +140,27 @@ std::vector<bool> before_activations(const Graph& graph) {
     return found;
 }
 
-// A norm that adds the layer's bias and takes it from there.
-Node norm_after(Node& layer, int place) {
-    constexpr float epsilon = 1e-5f;
+// Behind the layer at `place`, whose bias it takes over: a norm that does nothing else.
+int add_norm_after(Graph& graph, int place) {
+    auto& layer = graph.nodes[at(place)];
     const int channels = layer.weights[0].shape[0];
     const auto filled = [&](float value) {
-        return Tensor{{channels}, std::vector<float>(static_cast<std::size_t>(channels), value)};
+        return Tensor{{channels}, std::vector<float>(at(channels), value)};
     };
-    Node norm{.operation = Operation::batch_norm, .name = layer.name + ".norm", .inputs = {place}};
-    norm.weights = {filled(0), filled(1 - epsilon), filled(1), filled(0)};
-    norm.epsilon = epsilon;
+    auto shift = filled(0);
     if (layer.weights.size() == 2) {
-        norm.weights[3] = std::move(layer.weights[1]);
+        shift = std::move(layer.weights[1]);
         layer.weights.pop_back();
     }
-    return norm;
+    return add_batch_norm(graph, layer.name + ".norm", place,
+                          {filled(0), filled(1 - usual_epsilon), filled(1), std::move(shift)});
 }
 
 }  // namespace
+
+double deviation(const Node& norm, std::size_t channel) {
+    return std::sqrt(double{norm.weights[1].values[channel]} + double{norm.epsilon});
+}
 
 Graph unfold_batch_norms(const Graph& graph) {
     const auto normed = before_activations(graph);
@@ -169,9 +171,7 @@ Graph unfold_batch_norms(const Graph& graph) {
         Node node = graph.nodes[i];
         for (int& input : node.inputs) input = moved[at(input)];
         moved.push_back(unfolded.append(std::move(node)));
-        if (!normed[i]) continue;
-        Node norm = norm_after(unfolded.nodes.back(), moved.back());
-        moved.back() = unfolded.append(std::move(norm));
+        if (normed[i]) moved.back() = add_norm_after(unfolded, moved.back());
     }
     for (auto& output : unfolded.outputs) output.node = moved[at(output.node)];
     return unfolded;

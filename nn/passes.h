@@ -6,6 +6,9 @@
 
 namespace nn {
 
+// What a batch norm divides a channel by.
+double deviation(const Node& norm, std::size_t channel);
+
 // Every batch norm becomes part of the convolution or dense layer before it when nothing else reads
 // that layer, else an affine operation.
 Graph fold_batch_norms(Graph graph);

@@ -1,14 +1,10 @@
 #include "nn/training/norms.h"
 
-#include <cmath>
+#include "nn/passes.h"
 
 namespace nn::training {
 
 namespace {
-
-double deviation(const Node& norm, std::size_t channel) {
-    return std::sqrt(double{norm.weights[1].values[channel]} + double{norm.epsilon});
-}
 
 // `norm` computes what it did, by the statistics of `observed`.
 void adopt_statistics(Node& norm, const Node& observed) {

@@ -47,10 +47,11 @@ class PolicyStage {
     }
 
    private:
-    // What a new folder begins with.
+    // What a new folder begins with; where a checkpoint is, its weights come in place of these.
     nn::Graph begin(nn::Graph fresh) {
         if (!settings_.norms) return fresh;
         auto normed = nn::unfold_batch_norms(fresh);
+        if (folder_.has_checkpoint()) return normed;
         const auto learner = training::learner_settings(learning_, normed, input_.threads);
         engine::Random random(static_cast<std::uint64_t>(settings_.seed));
         const auto& samples = draw(random, learner.terms);

@@ -39,7 +39,8 @@ struct PolicySettings {
     }
 };
 
-// What learning from records begins with: Adam's steps serve networks without batch norms best.
+// What learning from records begins with. Adam's steps serve networks without batch norms best, and
+// are there for --norms false too.
 training::LearnSettings policy_learning();
 
 // A network to go on from, learned before in another folder: it alone is taken from the file, not

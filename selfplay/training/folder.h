@@ -25,6 +25,9 @@ class RunFolder {
     std::filesystem::path games() const { return path_ / "games"; }
     std::filesystem::path checkpoint() const { return path_ / "checkpoint.safetensors"; }
     std::filesystem::path old_checkpoint() const { return path_ / "checkpoint-old.safetensors"; }
+    bool has_checkpoint() const {
+        return std::filesystem::exists(checkpoint()) || std::filesystem::exists(old_checkpoint());
+    }
     std::filesystem::path latest() const { return path_ / "latest.safetensors"; }
     std::filesystem::path candidate() const { return path_ / "candidate.safetensors"; }
     std::filesystem::path metrics() const { return path_ / "metrics.jsonl"; }

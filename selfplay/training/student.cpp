@@ -26,7 +26,7 @@ Student::Student(nn::Graph fresh, const LearnSettings& settings, int threads,
       say_(std::move(say)),
       learner_(make_learner(std::move(fresh), settings, threads)),
       averages_(settings.average > 0) {
-    if (fs::exists(folder.checkpoint()) || fs::exists(folder.old_checkpoint()))
+    if (folder.has_checkpoint())
         restore();
     else
         save();

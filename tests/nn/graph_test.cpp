@@ -143,11 +143,7 @@ TEST(Passes, KeepWhatTheNetworkComputes) {
 // As a network learns on that has learned without norms.
 TEST(Passes, BatchNormsThatAreUnfoldedChangeNothingAndFoldAgain) {
     engine::Random random(9);
-    Facts facts;
-    facts.board = 5;
-    facts.channels = 6;
-    facts.blocks = 3;
-    const auto plain = build_alphago_policy(facts, 4, random);
+    const auto plain = build_alphago_policy(naive::facts_of(5, 3, 6), 4, random);
     const auto normed = unfold_batch_norms(plain);
     validate(normed);
     const auto norms = std::ranges::count(normed.nodes, Operation::batch_norm, &Node::operation);

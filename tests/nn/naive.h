@@ -19,6 +19,14 @@ using Values = std::vector<double>;
 
 inline std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
+inline Facts facts_of(int board, int blocks, int channels) {
+    Facts facts;
+    facts.board = board;
+    facts.blocks = blocks;
+    facts.channels = channels;
+    return facts;
+}
+
 struct Machine {
     const Graph& graph;
     int board;

@@ -84,11 +84,7 @@ TEST(Learner, AlphaGosNetworksLearnABatchByHeart) {
 // computed without them.
 TEST(Norms, FittedToABatchTheyChangeNothing) {
     engine::Random random(6);
-    Facts facts;
-    facts.board = 5;
-    facts.channels = 8;
-    facts.blocks = 4;
-    const auto plain = build_alphago_policy(facts, 6, random);
+    const auto plain = build_alphago_policy(naive::facts_of(5, 4, 8), 6, random);
     const Problem problem(plain, 5, 16);
     const auto settings = quick(0.001f);
     const auto before = Learner(plain, settings).evaluate(problem.samples);

@@ -156,9 +156,9 @@ TEST(PolicyStage, LearnsAndGoesOn) {
 TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
     Stage stage;
     auto settings = short_games();
-    settings.steps = 150;
     for (const bool norms : {false, true}) {
         settings.norms = norms;
+        settings.steps = 150;
         stage.input.folder = stage.folder.path() / (norms ? "normed" : "plain");
         learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, fast_learning(), {});
         EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
@@ -170,7 +170,6 @@ TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
         settings.steps = 1;
         learn_policy(stage.input, plays, settings, fast_learning(), {});
         EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
-        settings.steps = 150;
     }
 }
 
