@@ -187,6 +187,15 @@ double share(Player player, float black_value) {
 
 }  // namespace
 
+bool is_emptier(const Go& game, double share) {
+    const auto points = all_points(game);
+    const auto empty =
+        std::count_if(points.begin(), points.end(), [&](Point point) { return !game.at(point); });
+    return static_cast<double>(empty) > share * static_cast<double>(points.size());
+}
+
+bool too_early_to_pass(const Go& game) { return game.size() >= 5 && is_emptier(game, 2.0 / 3); }
+
 int lead_of(Player player, const go::Score& score) {
     return player == Player::first ? score.lead_halves : -score.lead_halves;
 }

@@ -66,6 +66,13 @@ class Reading {
     bool settled_ = true;
 };
 
+// Whether more than `share` of the board's points are empty.
+bool is_emptier(const go::Go& game, double share);
+
+// With two points in three empty, on 5x5 or more, there is something to play for whatever a network
+// thinks of a pass: some take one in the past for the end of the game and pass on.
+bool too_early_to_pass(const go::Go& game);
+
 // What the side to move should choose from when the end has come.
 struct Ending {
     bool pass = false;

@@ -9,6 +9,8 @@ namespace {
 using search::Milliseconds;
 
 constexpr std::uint64_t simulations = 3000, fewest_simulations = 500, quick_simulations = 200;
+// Two walls that divide a board of 9x9 leave less.
+constexpr double too_empty = 5.0 / 6;
 
 search::SearchParams small(search::SearchParams params) {
     params.memory_mib = 16;
@@ -82,6 +84,7 @@ Reading GoJudge::read(const go::Go& game, std::optional<Milliseconds> time) {
 }
 
 bool GoJudge::looks_over(const go::Go& game, std::optional<Milliseconds> time) {
+    if (is_emptier(game, too_empty)) return false;
     search::Limits limits;
     limits.simulations = quick_simulations;
     if (time) limits.time = *time / 2;

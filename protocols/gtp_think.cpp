@@ -177,7 +177,10 @@ std::string Gtp::choose(const Errand& errand) {
     const bool cleans_up = errand.cleans_up || disputed(errand.player);
     const auto end = restricted ? Ending{} : read_ending(game, cleans_up);
     if (limits.only.empty()) avoid_useless(game, limits.avoid);
-    if (end.pass) shorten(limits);
+    if (end.pass)
+        shorten(limits);
+    else if (!restricted && too_early_to_pass(game))
+        limits.avoid.push_back(go::Go::pass);
     limits.only.insert(limits.only.end(), end.only.begin(), end.only.end());
     if (limits.clock) limits.clock = reduced(*limits.clock, since(start));
     const auto picture = think(root_for(errand.player), limits, errand.reports);

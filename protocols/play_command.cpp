@@ -44,6 +44,7 @@ Ending read_ending(const go::Go& game, GoJudge& judge, search::Searcher<go::Go>&
 std::string choose_go_move(const go::Go& game, const Ending& end, const search::Analysis& picture) {
     if (end.pass) return "pass";
     const auto wanted = [&](const search::MoveAnalysis& move) {
+        if (move.move == go::Go::pass && too_early_to_pass(game)) return false;
         return end.only.empty() ||
                std::find(end.only.begin(), end.only.end(), move.move) != end.only.end();
     };

@@ -186,6 +186,14 @@ TEST(GoJudge, AnOpenBoardIsNotOver) {
     EXPECT_TRUE(judge.read(game).dead().empty());
 }
 
+TEST(GoEnding, AnOpenBoardIsTooEarlyForAPass) {
+    EXPECT_TRUE(too_early_to_pass(Go(19)));
+    EXPECT_FALSE(too_early_to_pass(Go(3)));
+    EXPECT_TRUE(is_emptier(board("2X1O2/7/7/7/7/7/7 b - 0:0 7.5"), 0.95));
+    EXPECT_FALSE(is_emptier(board("2X1O2/7/7/7/7/7/7 b - 0:0 7.5"), 0.96));
+    EXPECT_FALSE(too_early_to_pass(board("2XO1/2XO1/2XO1/2XO1/2XO1 b - 0:0 0.5")));
+}
+
 // Two walls with six neutral points between them: Black has 22 points, White 21.
 constexpr std::string_view walls = "2X1O2/2X1O2/2X1O2/2XXO2/2X1O2/2X1O2/2X1O2 b - 0:0 ";
 const std::vector<std::string> white_wall{"E1", "E2", "E3", "E4", "E5", "E6", "E7"};

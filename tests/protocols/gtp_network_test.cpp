@@ -173,6 +173,22 @@ TEST_F(OwnNetwork, IsRefusedByNameWhereItDoesNotFit) {
     EXPECT_EQ(guest.say("query_boardsize"), "= 9");
 }
 
+// It takes a pass for the best move whatever the board looks like.
+TEST_F(OwnNetwork, ThatLongsToPassPlaysOnWhileTheBoardIsOpen) {
+    auto graph = fake::small_network<go::Go>();
+    for (auto& node : graph.nodes)
+        if (node.name == "policy.pass")
+            for (float& bias : node.weights[1].values) bias = 20;
+    GtpGuest guest;
+    ASSERT_EQ(guest.say("kata-set-param WeightsFile " + saved(graph)), "=");
+    guest.say("lz-setoption name Visits value 20");
+    const auto text = guest.ask("kata-raw-nn 0");
+    EXPECT_GT(std::stod(line_of(text, "policyPass").substr(11)), 0.99) << text;
+    EXPECT_NE(guest.ask("genmove b"), "pass");
+    for (const char* move : {"w C3", "b pass", "w G7"}) guest.say(std::string("play ") + move);
+    EXPECT_NE(guest.ask("genmove b"), "pass");
+}
+
 // Weights so large that activations overflow.
 TEST_F(OwnNetwork, ThatYieldsNoNumbersStillPlaysALegalMove) {
     auto graph = fake::small_network<go::Go>();
