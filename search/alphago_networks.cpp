@@ -62,18 +62,20 @@ void check_kind(const Network& network, const char* output, int board) {
 // The networks that a folder holds, as it holds them.
 struct ExactSet {
     explicit ExactSet(const fs::path& folder)
-        : policy(in(folder, "policy")), value(in(folder, "value")) {
-        if (fs::exists(folder / file_of("rl"))) reinforced.emplace(in(folder, "rl"));
+        : policy(in(folder, "policy")),
+          value(if_in(folder, "value")),
+          reinforced(if_in(folder, "rl")) {
         if (const auto file = folder / file_of("rollout"); fs::exists(file))
             linear = load_linear_policies(file.string());
     }
 
     AlphaGoSet as_it_is() const {
-        return {policy.network, reinforced ? reinforced->network : nullptr, value.network, linear};
+        return {policy.network, reinforced ? reinforced->network : nullptr,
+                value ? value->network : nullptr, linear};
     }
 
-    loading::Exact policy, value;
-    std::optional<loading::Exact> reinforced;
+    loading::Exact policy;
+    std::optional<loading::Exact> value, reinforced;
     std::shared_ptr<const go::LinearPolicies> linear;
 
    private:
@@ -87,6 +89,10 @@ struct ExactSet {
                  file_of(name));
         return loading::Exact(loading::contents_of(file));
     }
+    static std::optional<loading::Exact> if_in(const fs::path& folder, std::string_view name) {
+        if (!fs::exists(folder / file_of(name))) return std::nullopt;
+        return in(folder, name);
+    }
 };
 
 }  // namespace
@@ -95,12 +101,13 @@ AlphaGoSource::AlphaGoSource(AlphaGoSet set) : set_(std::move(set)) {
     const int board = set_.supervised->graph().facts.board;
     check_kind(*set_.supervised, "policy", board);
     if (set_.reinforced) check_kind(*set_.reinforced, "policy", board);
-    check_kind(*set_.value, "value", board);
+    if (set_.value) check_kind(*set_.value, "value", board);
 }
 
 std::unique_ptr<Evaluator<Go>> AlphaGoSource::make_evaluator_of(Prior prior) const {
     const auto& policy = prior == Prior::supervised ? set_.supervised : set_.reinforced;
     if (!policy) fail("the set of networks has no reinforced policy (rl.safetensors)");
+    if (!set_.value) return std::make_unique<NetworkEvaluator<Go>>(policy);
     return std::make_unique<PairEvaluator>(policy, set_.value);
 }
 
@@ -128,7 +135,7 @@ std::shared_ptr<const AlphaGoSource> load_alphago(const fs::path& folder, Precis
     AlphaGoSource(set).check(game);
     const auto player = exact.policy.network;
     set.supervised = loading::settled(exact.policy, player, precision, game);
-    set.value = loading::settled(exact.value, player, precision, game);
+    if (exact.value) set.value = loading::settled(*exact.value, player, precision, game);
     if (exact.reinforced)
         set.reinforced = loading::settled(*exact.reinforced, player, precision, game);
     return std::make_shared<const AlphaGoSource>(std::move(set));

@@ -2,7 +2,7 @@
 // a value network, rollouts by a linear policy. A folder holds them:
 //   policy.safetensors   the supervised policy
 //   rl.safetensors       the reinforced policy; may be absent
-//   value.safetensors    the value network
+//   value.safetensors    the value network; may be absent where lambda is 1
 //   rollout.safetensors  the linear policies; where absent the search's own play rollouts
 // as `sanban learn` makes them one by one.
 #pragma once
@@ -20,7 +20,7 @@
 namespace search {
 
 struct AlphaGoSet {
-    std::shared_ptr<const Network> supervised, reinforced, value;  // reinforced: or nothing
+    std::shared_ptr<const Network> supervised, reinforced, value;  // but the first or nothing
     std::shared_ptr<const go::LinearPolicies> linear;              // or nothing
 };
 
@@ -36,6 +36,7 @@ class AlphaGoSource final : public EvaluatorSource<go::Go> {
     std::unique_ptr<Evaluator<go::Go>> make_evaluator_of(Prior prior) const override;
     std::unique_ptr<RolloutPlayer<go::Go>> make_rollouts() const override;
     std::string_view name() const override { return set_.supervised->graph().facts.name; }
+    bool has_value() const override { return set_.value != nullptr; }
     void check(const go::Go& game) const override;
     int policy_index(const go::Go& game, engine::Move move) const override;
 

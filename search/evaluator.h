@@ -94,6 +94,8 @@ class EvaluatorSource {
         return std::make_unique<RolloutPlayerBy<G, typename engine::RolloutsOf<G>::type>>();
     }
     virtual std::string_view name() const = 0;
+    // Whether its answers have a value; else positions have to be played out.
+    virtual bool has_value() const { return true; }
     // Fails, naming both, when the network does not serve the board of this game.
     virtual void check(const G& game) const = 0;
     // Where the network's policy has this move.

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/games.h"
 #include "search/alphago_leaf.h"
 #include "search/analysis.h"
@@ -43,12 +44,14 @@ class Searcher {
     Searcher& operator=(const Searcher&) = delete;
     ~Searcher() { stop(); }
 
-    // A changed memory budget forgets the tree; changed threads or seed start new workers.
+    // A changed memory budget forgets the tree; changed threads or seed start new workers. Fails,
+    // all being as before, when the search would go by values of a network that has none.
     void set_params(const SearchParams& params);
     const SearchParams& params() const { return params_; }
 
     // Searches with this network from now on, with games played out when it is none; forgets the
-    // tree. Fails, all being as before, when the network does not serve the present board.
+    // tree. Fails, all being as before, when the network does not serve the present board, or has
+    // no value where the search goes by one.
     void set_network(std::shared_ptr<const EvaluatorSource<G>> network);
     bool has_network() const { return network_ != nullptr; }
     const std::shared_ptr<const EvaluatorSource<G>>& network() const { return network_; }
@@ -95,6 +98,7 @@ class Searcher {
    private:
     using Clock = std::chrono::steady_clock;
 
+    static void check_value(const EvaluatorSource<G>* network, const SearchParams& params);
     void rebuild(const SearchParams& params);
     bool uses_network() const { return network_ && params_.method != Method::uct; }
     bool uses_alphago() const { return uses_network() && params_.method == Method::alphago; }
@@ -178,11 +182,22 @@ void Searcher<G>::rebuild(const SearchParams& params) {
     hire();
 }
 
+// Fails where the search would go by values that the network does not tell.
+template <engine::Game G>
+void Searcher<G>::check_value(const EvaluatorSource<G>* network, const SearchParams& params) {
+    const bool by_rollouts =
+        params.method == Method::uct || (params.method == Method::alphago && params.lambda == 1);
+    if (network && !network->has_value() && !by_rollouts)
+        engine::fail("the network {} has no value: it needs --search alphago --lambda 1",
+                     network->name());
+}
+
 template <engine::Game G>
 void Searcher<G>::set_network(std::shared_ptr<const EvaluatorSource<G>> network) {
     crew_->wait();
     const G root = position();
     if (network) network->check(root);
+    check_value(network.get(), params_);
     network_ = std::move(network);
     rebuild(params_);
     set_position(root);
@@ -238,6 +253,7 @@ void Searcher<G>::hire() {
 template <engine::Game G>
 void Searcher<G>::set_params(const SearchParams& params) {
     crew_->wait();
+    check_value(network_.get(), params);
     const auto old = std::exchange(params_, params);
     if (old.memory_mib != params.memory_mib || old.method != params.method ||
         old.prior != params.prior) {

@@ -297,8 +297,26 @@ TEST(AlphaGoSet, SaysWhatIsMissing) {
     EXPECT_NE(set.load()->make_rollouts(), nullptr);
     std::filesystem::copy(set.file("policy"), set.file("rollout"));
     EXPECT_THROW(set.load(), engine::Error);
-    std::filesystem::remove(set.file("value"));
+    std::filesystem::remove(set.file("policy"));
     EXPECT_THROW(set.load(), engine::Error);
+}
+
+TEST(AlphaGoSet, WithoutAValueNetworkEverythingIsPlayedOut) {
+    const Folder set;
+    std::filesystem::remove(set.file("value"));
+    EXPECT_FALSE(set.load()->has_value());
+    auto params = alphago_params();
+    params.lambda = 1;
+    Searcher<go::Go> searcher(params);
+    searcher.set_position(go::Go(5));
+    searcher.set_network(set.load());
+    EXPECT_GT(searcher.think(simulations(400)).simulations, 300u);
+    params.lambda = 0.5f;
+    EXPECT_THROW(searcher.set_params(params), engine::Error);
+    params.method = Method::puct;
+    EXPECT_THROW(searcher.set_params(params), engine::Error);
+    EXPECT_EQ(searcher.params().lambda, 1);
+    EXPECT_THROW(Searcher<go::Go>(params).set_network(set.load()), engine::Error);
 }
 
 TEST(PolicyPlayer, DrawsSensibleMovesAndPassesLast) {
