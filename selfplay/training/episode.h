@@ -93,6 +93,7 @@ class Episode {
         params.cpuct = settings.cpuct;
         params.fpu_reduction = settings.fpu_reduction;
         params.root_fpu_reduction = 0;
+        params.policy_temperature = 1;  // what search makes of the priors is what they learn
         // Two halves, each with room for this search and what is kept of the one before.
         const auto node = sizeof(search::Node) +
                           sizeof(search::Edge) * static_cast<std::size_t>(typical_moves(start));

@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "search/network_evaluator.h"
 #include "search/searcher.h"
 #include "tests/search/fake_network.h"
 #include "tests/search/tictactoe.h"
@@ -250,6 +251,27 @@ TEST(Choice, PolicyTemperatureEvensThePriors) {
     EXPECT_NEAR(best, std::sqrt(0.6) / (std::sqrt(0.6) + 8 * std::sqrt(0.05)), 1e-3);
     params.root_policy_temperature = 1;
     EXPECT_NEAR(searched(params, "", simulations(1), lean).moves.at(0).prior, 0.6, 1e-3);
+}
+
+// The highest prior at the root, by a small network.
+template <class G>
+float most_likely(float temperature) {
+    auto params = small();
+    params.policy_temperature = temperature;
+    Searcher<G> searcher(params);
+    searcher.set_position(G());
+    searcher.set_network(std::make_shared<NetworkSource<G>>(
+        std::make_shared<const Network>(fake::small_network<G>(), nn::Precision::fp32)));
+    float most = 0;
+    for (const auto& move : searcher.think(simulations(1)).moves) most = std::max(most, move.prior);
+    return most;
+}
+
+TEST(Choice, WithoutAPolicyTemperatureTheGameHasItsOwn) {
+    EXPECT_EQ(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1.5f));
+    EXPECT_EQ(most_likely<shogi::Shogi>(0), most_likely<shogi::Shogi>(1.5f));
+    EXPECT_EQ(most_likely<go::Go>(0), most_likely<go::Go>(1));
+    EXPECT_LT(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1));
 }
 
 TEST(Level, TheLowestKnowsNextToNothingAndTheHighestAll) {
