@@ -94,6 +94,8 @@ class EvaluatorSource {
         return std::make_unique<RolloutPlayerBy<G, typename engine::RolloutsOf<G>::type>>();
     }
     virtual std::string_view name() const = 0;
+    // Of its priors, as search makes the best of them.
+    virtual float policy_temperature() const { return 1; }
     // Whether its answers have a value; else positions have to be played out.
     virtual bool has_value() const { return true; }
     // Fails, naming both, when the network does not serve the board of this game.

@@ -32,7 +32,7 @@ struct SearchParams {
     float fpu_reduction = 0.25f, root_fpu_reduction = 0.25f;
     float virtual_loss = 1;
     float policy_temperature = 0,
-          root_policy_temperature = 0;  // 0: what suits the game; as elsewhere
+          root_policy_temperature = 0;  // 0: what suits the network; as elsewhere
     float noise = 0, noise_alpha = 0;   // of the priors at the root (Dirichlet)
     int gumbel_moves = 16;              // root moves that take part (gumbel)
     float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
@@ -90,7 +90,7 @@ struct SearchParams {
                              "losses that a visit under way counts (puct)"},
             Option<P, float>{"policy-temperature", &P::policy_temperature, 0, 10,
                              "of the network's priors; above 1 they are evened out; 0: what suits "
-                             "the game, 1.5 in chess and shogi and 1 in Go"},
+                             "it, 1.5 for chess and shogi by sanban's training, else 1"},
             Option<P, float>{"root-policy-temperature", &P::root_policy_temperature, 0, 10,
                              "likewise at the root; 0: as elsewhere"},
             Option<P, float>{"noise", &P::noise, 0, 1,

@@ -13,7 +13,6 @@
 #include <optional>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -98,9 +97,6 @@ class Searcher {
 
    private:
     using Clock = std::chrono::steady_clock;
-    // By matches of one network against itself; the README has them.
-    static constexpr float suitable_policy_temperature =
-        std::is_same_v<G, chess::Chess> || std::is_same_v<G, shogi::Shogi> ? 1.5f : 1.0f;
 
     static void check_value(const EvaluatorSource<G>* network, const SearchParams& params);
     void rebuild(const SearchParams& params);
@@ -233,8 +229,8 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
                           .n_thr = params_.n_thr},
             seed);
     typename NetworkLeaf<G>::Temperatures temperatures;
-    temperatures.elsewhere =
-        params_.policy_temperature > 0 ? params_.policy_temperature : suitable_policy_temperature;
+    temperatures.elsewhere = params_.policy_temperature > 0 ? params_.policy_temperature
+                                                            : network_->policy_temperature();
     const float root = params_.root_policy_temperature;
     temperatures.root = root > 0 ? root : temperatures.elsewhere;
     return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries,

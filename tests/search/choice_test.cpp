@@ -255,22 +255,25 @@ TEST(Choice, PolicyTemperatureEvensThePriors) {
 
 // The highest prior at the root, by a small network.
 template <class G>
-float most_likely(float temperature) {
+float most_likely(float temperature, const std::string& source = "sanban train") {
     auto params = small();
     params.policy_temperature = temperature;
+    auto graph = fake::small_network<G>();
+    graph.facts.source = source;
     Searcher<G> searcher(params);
     searcher.set_position(G());
     searcher.set_network(std::make_shared<NetworkSource<G>>(
-        std::make_shared<const Network>(fake::small_network<G>(), nn::Precision::fp32)));
+        std::make_shared<const Network>(std::move(graph), nn::Precision::fp32)));
     float most = 0;
     for (const auto& move : searcher.think(simulations(1)).moves) most = std::max(most, move.prior);
     return most;
 }
 
-TEST(Choice, WithoutAPolicyTemperatureTheGameHasItsOwn) {
+TEST(Choice, WithoutAPolicyTemperatureTheNetworkHasItsOwn) {
     EXPECT_EQ(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1.5f));
     EXPECT_EQ(most_likely<shogi::Shogi>(0), most_likely<shogi::Shogi>(1.5f));
     EXPECT_EQ(most_likely<go::Go>(0), most_likely<go::Go>(1));
+    EXPECT_EQ(most_likely<chess::Chess>(0, "lc0"), most_likely<chess::Chess>(1, "lc0"));
     EXPECT_LT(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1));
 }
 
