@@ -62,9 +62,9 @@ class Session {
     virtual search::SearchParams params() const = 0;
     virtual void set_params(const search::SearchParams& params) = 0;
     // Searches with the network of this file from now on; with games played out when the name is
-    // empty. Fails, all being as before, when the file or its game or board is wrong. The one that
-    // this program carries (search::embedded_name) gives way to games played out on boards that it
-    // does not serve.
+    // empty. Fails, all being as before, when the file or its game or board is wrong. What
+    // this program carries (search::embedded_name) goes by board and method, and gives way to games
+    // played out on boards that it does not serve.
     virtual void load_network(const std::string& file, search::PrecisionChoice precision) = 0;
     // Where the network's policy has a legal move; 0 without a network.
     virtual int policy_index(engine::Move move) const = 0;
@@ -185,8 +185,12 @@ class GameSession final : public Session {
 
     search::SearchParams params() const override { return params_; }
     void set_params(const search::SearchParams& params) override {
+        const bool anew = embedded_ && params.method != params_.method;
+        if (anew) searcher_.set_network(nullptr);
         searcher_.set_params(for_tree(params));
         params_ = params;
+        if constexpr (engine::Encoded<G>)
+            if (anew) load_embedded(now(), embedded_->precision);
     }
 
     void load_network(const std::string& file, search::PrecisionChoice precision) override {
@@ -203,8 +207,12 @@ class GameSession final : public Session {
     // Before a game from such a start: fails when the network that was asked for does not serve it.
     void prepare_for(const G& start) {
         if (!embedded_) return searcher_.check(start);
-        if constexpr (engine::Encoded<G>)
-            if (!searcher_.has_network() || !serves(start)) load_embedded(start, *embedded_);
+        if constexpr (engine::Encoded<G>) {
+            const auto choice = search::embedded_choice(start, params_.method);
+            const bool lacks = !choice.empty() && !searcher_.has_network();
+            if (lacks || choice != embedded_->name || !serves(start))
+                load_embedded(start, embedded_->precision);
+        }
     }
 
     int policy_index(engine::Move move) const override {
@@ -246,11 +254,17 @@ class GameSession final : public Session {
         searcher_.warm_up();
     }
 
+    // Of what this program carries.
+    struct Embedded {
+        std::string_view name;  // as embedded_choice says
+        search::PrecisionChoice precision;
+    };
+
     void load_embedded(const G& game, search::PrecisionChoice precision) {
-        embedded_ = precision;
+        embedded_ = {search::embedded_choice(game, params_.method), precision};
         std::shared_ptr<const search::EvaluatorSource<G>> source;
         try {
-            source = search::load_network(std::string(search::embedded_name), precision, game);
+            source = search::load_embedded(embedded_->name, precision, game);
         } catch (const engine::Error& error) {
             fmt::print(stderr, "{}: games are played out (UCT)\n", error.what());
         }
@@ -259,8 +273,8 @@ class GameSession final : public Session {
 
     search::SearchParams params_;  // as they were given
     search::Searcher<G> searcher_;
-    std::optional<search::PrecisionChoice> embedded_;  // in use: what this program carries
-    std::vector<G> games_;                             // the present state last
+    std::optional<Embedded> embedded_;  // in use
+    std::vector<G> games_;              // the present state last
     std::function<void(G&)> house_rules_;
 };
 

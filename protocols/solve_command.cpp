@@ -153,7 +153,8 @@ class Solver {
         check_method(flags_.params, network);
         if (network.weights.empty()) return;
         searcher_->set_position(game);
-        searcher_->set_network(search::load_player(network.weights, network.precision, game));
+        searcher_->set_network(
+            search::load_player(network.weights, network.precision, game, flags_.params.method));
         searcher_->warm_up();
     }
 

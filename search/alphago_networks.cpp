@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "search/embedded_weights.h"
 #include "search/linear_network.h"
 #include "search/load_network.h"
 
@@ -59,14 +61,17 @@ void check_kind(const Network& network, const char* output, int board) {
     engine::find_encoding<Go>(facts.encoding);
 }
 
-// The networks that a folder holds, as it holds them.
+// Reads the network of this name (policy, rl, value, rollout), where there is one.
+using Find = std::function<std::optional<nn::Contents>(std::string_view)>;
+
+// The networks of a set, as its files have them.
 struct ExactSet {
-    explicit ExactSet(const fs::path& folder)
-        : policy(in(folder, "policy")),
-          value(if_in(folder, "value")),
-          reinforced(if_in(folder, "rl")) {
-        if (const auto file = folder / file_of("rollout"); fs::exists(file))
-            linear = load_linear_policies(file.string());
+    // `where`: for the message when there is no policy network.
+    ExactSet(std::string_view where, const Find& find)
+        : policy(contents_of_policy(where, find)),
+          value(exact(find("value"))),
+          reinforced(exact(find("rl"))) {
+        if (const auto contents = find("rollout")) linear = linear_policies_of(contents->graph);
     }
 
     AlphaGoSet as_it_is() const {
@@ -79,21 +84,29 @@ struct ExactSet {
     std::shared_ptr<const go::LinearPolicies> linear;
 
    private:
-    static std::string file_of(std::string_view name) {
-        return fmt::format("{}.safetensors", name);
+    static nn::Contents contents_of_policy(std::string_view where, const Find& find) {
+        auto contents = find("policy");
+        if (!contents)
+            fail("{}: expected AlphaGo's networks there, found no policy.safetensors", where);
+        return std::move(*contents);
     }
-    static loading::Exact in(const fs::path& folder, std::string_view name) {
-        const auto file = folder / file_of(name);
-        if (!fs::exists(file))
-            fail("{}: expected AlphaGo's networks there, found no {}", folder.string(),
-                 file_of(name));
-        return loading::Exact(loading::contents_of(file));
-    }
-    static std::optional<loading::Exact> if_in(const fs::path& folder, std::string_view name) {
-        if (!fs::exists(folder / file_of(name))) return std::nullopt;
-        return in(folder, name);
+    static std::optional<loading::Exact> exact(std::optional<nn::Contents> contents) {
+        if (!contents) return std::nullopt;
+        return loading::Exact(std::move(*contents));
     }
 };
+
+std::shared_ptr<const AlphaGoSource> source_of_set(const ExactSet& exact, PrecisionChoice precision,
+                                                   const Go& game) {
+    auto set = exact.as_it_is();
+    AlphaGoSource(set).check(game);
+    const auto player = exact.policy.network;
+    set.supervised = loading::settled(exact.policy, player, precision, game);
+    if (exact.value) set.value = loading::settled(*exact.value, player, precision, game);
+    if (exact.reinforced)
+        set.reinforced = loading::settled(*exact.reinforced, player, precision, game);
+    return std::make_shared<const AlphaGoSource>(std::move(set));
+}
 
 }  // namespace
 
@@ -130,15 +143,22 @@ int AlphaGoSource::policy_index(const Go& game, engine::Move move) const {
 
 std::shared_ptr<const AlphaGoSource> load_alphago(const fs::path& folder, PrecisionChoice precision,
                                                   const Go& game) {
-    const ExactSet exact(folder);
-    auto set = exact.as_it_is();
-    AlphaGoSource(set).check(game);
-    const auto player = exact.policy.network;
-    set.supervised = loading::settled(exact.policy, player, precision, game);
-    if (exact.value) set.value = loading::settled(*exact.value, player, precision, game);
-    if (exact.reinforced)
-        set.reinforced = loading::settled(*exact.reinforced, player, precision, game);
-    return std::make_shared<const AlphaGoSource>(std::move(set));
+    const auto find = [&](std::string_view name) -> std::optional<nn::Contents> {
+        const auto file = folder / fmt::format("{}.safetensors", name);
+        if (!fs::exists(file)) return std::nullopt;
+        return loading::contents_of(file);
+    };
+    return source_of_set(ExactSet(folder.string(), find), precision, game);
+}
+
+std::shared_ptr<const AlphaGoSource> load_embedded_alphago(PrecisionChoice precision,
+                                                           const Go& game) {
+    const auto find = [](std::string_view name) -> std::optional<nn::Contents> {
+        const auto bytes = embedded_weights(fmt::format("{}/{}", embedded_alphago, name));
+        if (bytes.empty()) return std::nullopt;
+        return nn::contents_from_bytes(bytes);
+    };
+    return source_of_set(ExactSet(embedded_alphago, find), precision, game);
 }
 
 }  // namespace search

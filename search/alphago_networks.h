@@ -2,7 +2,7 @@
 // a value network, rollouts by a linear policy. A folder holds them:
 //   policy.safetensors   the supervised policy
 //   rl.safetensors       the reinforced policy; may be absent
-//   value.safetensors    the value network; may be absent where lambda is 1
+//   value.safetensors    the value network; where absent rollouts alone are the value
 //   rollout.safetensors  the linear policies; where absent the search's own play rollouts
 // as `sanban learn` makes them one by one.
 #pragma once
@@ -37,6 +37,7 @@ class AlphaGoSource final : public EvaluatorSource<go::Go> {
     std::unique_ptr<RolloutPlayer<go::Go>> make_rollouts() const override;
     std::string_view name() const override { return set_.supervised->graph().facts.name; }
     bool has_value() const override { return set_.value != nullptr; }
+    bool blends() const override { return true; }
     void check(const go::Go& game) const override;
     int policy_index(const go::Go& game, engine::Move move) const override;
 
@@ -48,5 +49,8 @@ class AlphaGoSource final : public EvaluatorSource<go::Go> {
 // are as for load_network.
 std::shared_ptr<const AlphaGoSource> load_alphago(const std::filesystem::path& folder,
                                                   PrecisionChoice precision, const go::Go& game);
+// The set that this program carries (embedded_alphago).
+std::shared_ptr<const AlphaGoSource> load_embedded_alphago(PrecisionChoice precision,
+                                                           const go::Go& game);
 
 }  // namespace search

@@ -6,10 +6,14 @@
 
 namespace search {
 
-// The name under which load_network finds the one of its game.
+// The name under which load_player finds the one that suits game and board.
 inline constexpr std::string_view embedded_name = "default";
 
-// The weight file of this game; empty where there is none.
-std::string_view embedded_weights(std::string_view game);
+// AlphaGo's networks for boards of 19x19: a folder of the weights.
+inline constexpr std::string_view embedded_alphago = "alphago-19x19";
+
+// The weight file of that name in the folder of weights, without its extension: "go", or
+// "alphago-19x19/policy". Empty where there is none.
+std::string_view embedded_weights(std::string_view name);
 
 }  // namespace search

@@ -98,6 +98,8 @@ class EvaluatorSource {
     virtual float policy_temperature() const { return 1; }
     // Whether its answers have a value; else positions have to be played out.
     virtual bool has_value() const { return true; }
+    // Whether it is a set that AlphaGo's search is made for, rollouts and networks blended.
+    virtual bool blends() const { return false; }
     // Fails, naming both, when the network does not serve the board of this game.
     virtual void check(const G& game) const = 0;
     // Where the network's policy has this move.

@@ -49,13 +49,17 @@ LinearLogits logits_of(const nn::Graph& graph) {
     return {{weights->values.begin(), middle}, {middle, weights->values.end()}};
 }
 
+std::shared_ptr<const go::LinearPolicies> linear_policies_of(const nn::Graph& graph) {
+    const auto logits = logits_of(graph);
+    return std::make_shared<const go::LinearPolicies>(
+        go::LinearPolicies{go::Factors(logits.rollout), go::Factors(logits.tree)});
+}
+
 std::shared_ptr<const go::LinearPolicies> load_linear_policies(const std::string& name) {
     const auto path = find_weights(name);
     const auto graph = nn::load(path);
     try {
-        const auto logits = logits_of(graph);
-        return std::make_shared<const go::LinearPolicies>(
-            go::LinearPolicies{go::Factors(logits.rollout), go::Factors(logits.tree)});
+        return linear_policies_of(graph);
     } catch (const engine::Error& error) {
         engine::fail("{}: {}", path.string(), error.what());
     }

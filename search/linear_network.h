@@ -21,6 +21,9 @@ nn::Graph graph_of(const LinearLogits& logits);
 // Fails with engine::Error on any other network.
 LinearLogits logits_of(const nn::Graph& graph);
 
+// Fails as logits_of.
+std::shared_ptr<const go::LinearPolicies> linear_policies_of(const nn::Graph& graph);
+
 // Fails with engine::Error, naming the file, when it holds no such policies. `name` as find_weights
 // takes it.
 std::shared_ptr<const go::LinearPolicies> load_linear_policies(const std::string& name);

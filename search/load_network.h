@@ -17,7 +17,6 @@
 #include "nn/backend.h"
 #include "nn/load.h"
 #include "search/calibrate.h"
-#include "search/embedded_weights.h"
 #include "search/fidelity.h"
 #include "search/known_networks.h"
 #include "search/network_evaluator.h"
@@ -141,13 +140,6 @@ inline nn::Contents contents_of(const std::filesystem::path& file) {
     return contents;
 }
 
-inline nn::Contents contents_of(const std::string& name, std::string_view game) {
-    if (name != embedded_name) return contents_of(find_weights(name));
-    const auto bytes = embedded_weights(game);
-    if (bytes.empty()) engine::fail("this build carries no network for {}", game);
-    return nn::contents_from_bytes(bytes);
-}
-
 // A network as its file has it.
 struct Exact {
     explicit Exact(nn::Contents contents)
@@ -188,17 +180,24 @@ nn::Calibration calibration_of(const nn::Contents& contents, const G& game = G()
     return calibrate<G>(graph, loading::sample(exact, game).seen);
 }
 
-// `name`: of a file as find_weights takes it, or embedded_name. Fails with engine::Error, one line,
-// when there is no such file, when it is none, when its network plays another game or does not
-// serve the board of `game`, or when it yields no numbers. Blocks for up to some seconds where a
-// calibration is due.
+// The network of a weight file to play `game` with. Fails with engine::Error, one line, when it
+// plays another game or does not serve the board, or when it yields no numbers. Blocks for up to
+// some seconds where a calibration is due.
 template <engine::Encoded G>
-std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
-                                                     PrecisionChoice choice, const G& game) {
-    const loading::Exact exact(loading::contents_of(name, G::name));
+std::shared_ptr<const NetworkSource<G>> source_of(nn::Contents contents, PrecisionChoice choice,
+                                                  const G& game) {
+    const loading::Exact exact(std::move(contents));
     NetworkSource<G>(exact.network).check(game);
     return std::make_shared<const NetworkSource<G>>(
         loading::settled(exact, exact.network, choice, game), exact.network);
+}
+
+// `name`: of a file as find_weights takes it. Fails also when there is no such file, or when it is
+// none.
+template <engine::Encoded G>
+std::shared_ptr<const NetworkSource<G>> load_network(const std::string& name,
+                                                     PrecisionChoice choice, const G& game) {
+    return source_of(loading::contents_of(find_weights(name)), choice, game);
 }
 
 }  // namespace search

@@ -61,9 +61,9 @@ struct SearchParams {
         using P = SearchParams;
         return std::tuple{
             Choice<P, Method>{"search", &P::method, method_names,
-                              "auto: puct with a network, uct (games played out) without; gumbel: "
-                              "puct below a root that halves its candidates; alphago: "
-                              "rollouts and networks blended"},
+                              "auto: puct with a network, alphago with a folder of AlphaGo's, uct "
+                              "(games played out) without; gumbel: puct below a root that halves "
+                              "its candidates; alphago: rollouts and networks blended"},
             Option<P, int>{"threads", &P::threads, 1, 1024, "worker threads"},
             Option<P, int>{"memory", &P::memory_mib, 16, 1 << 20, "MiB for tree and caches"},
             Option<P, int>{"seed", &P::seed, 0, 0x7fffffff, "of all randomness"},
@@ -104,7 +104,8 @@ struct SearchParams {
             Option<P, float>{"gumbel-noise", &P::gumbel_noise, 0, 10,
                              "of the choice of candidates; 1 in self-play (gumbel)"},
             Option<P, float>{"lambda", &P::lambda, 0, 1,
-                             "share of rollouts in a value, the rest is the network's (alphago)"},
+                             "share of rollouts in a value, the rest is the network's; all "
+                             "where it has no value (alphago)"},
             Option<P, int>{"n-thr", &P::n_thr, 0, 100'000,
                            "visits at which a leaf gets children and networks are asked (alphago); "
                            "0: as many as give networks their share; the paper: 40 at first"},

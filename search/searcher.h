@@ -39,7 +39,7 @@ class Searcher {
     using Report = std::function<void(const Analysis&)>;
 
     // Fails with engine::Error when the system grants no memory for the tree.
-    explicit Searcher(const SearchParams& params) { rebuild(params); }
+    explicit Searcher(const SearchParams& params) : given_(params) { rebuild(params); }
     Searcher(const Searcher&) = delete;
     Searcher& operator=(const Searcher&) = delete;
     ~Searcher() { stop(); }
@@ -47,7 +47,7 @@ class Searcher {
     // A changed memory budget forgets the tree; changed threads or seed start new workers. Fails,
     // all being as before, when the search would go by values of a network that has none.
     void set_params(const SearchParams& params);
-    const SearchParams& params() const { return params_; }
+    const SearchParams& params() const { return given_; }
 
     // Searches with this network from now on, with games played out when it is none; forgets the
     // tree. Fails, all being as before, when the network does not serve the present board, or has
@@ -98,7 +98,9 @@ class Searcher {
    private:
     using Clock = std::chrono::steady_clock;
 
-    static void check_value(const EvaluatorSource<G>* network, const SearchParams& params);
+    // What settings leave to the network, settled. Fails where the search would go by values that
+    // it does not tell.
+    static SearchParams settled(SearchParams given, const EvaluatorSource<G>* network);
     void rebuild(const SearchParams& params);
     bool uses_network() const { return network_ && params_.method != Method::uct; }
     bool uses_alphago() const { return uses_network() && params_.method == Method::alphago; }
@@ -131,7 +133,7 @@ class Searcher {
         return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
     }
 
-    SearchParams params_;
+    SearchParams given_, params_;  // as they were set; settled
     std::shared_ptr<const EvaluatorSource<G>> network_;
     std::shared_ptr<EvaluationCache> cache_;  // with a network
     std::shared_ptr<LateLeaves<G>> unanswered_ = std::make_shared<LateLeaves<G>>();
@@ -182,14 +184,15 @@ void Searcher<G>::rebuild(const SearchParams& params) {
     hire();
 }
 
-// Fails where the search would go by values that the network does not tell.
 template <engine::Game G>
-void Searcher<G>::check_value(const EvaluatorSource<G>* network, const SearchParams& params) {
-    const bool by_rollouts =
-        params.method == Method::uct || (params.method == Method::alphago && params.lambda == 1);
-    if (network && !network->has_value() && !by_rollouts)
-        engine::fail("the network {} has no value: it needs --search alphago --lambda 1",
-                     network->name());
+SearchParams Searcher<G>::settled(SearchParams given, const EvaluatorSource<G>* network) {
+    if (!network) return given;
+    if (given.method == Method::automatic && network->blends()) given.method = Method::alphago;
+    if (network->has_value()) return given;
+    given.lambda = 1;
+    if (given.method != Method::uct && given.method != Method::alphago)
+        engine::fail("the network {} has no value: it needs --search alphago", network->name());
+    return given;
 }
 
 template <engine::Game G>
@@ -197,9 +200,9 @@ void Searcher<G>::set_network(std::shared_ptr<const EvaluatorSource<G>> network)
     crew_->wait();
     const G root = position();
     if (network) network->check(root);
-    check_value(network.get(), params_);
+    const auto params = settled(given_, network.get());
     network_ = std::move(network);
-    rebuild(params_);
+    rebuild(params);
     set_position(root);
 }
 
@@ -252,9 +255,10 @@ void Searcher<G>::hire() {
 }
 
 template <engine::Game G>
-void Searcher<G>::set_params(const SearchParams& params) {
+void Searcher<G>::set_params(const SearchParams& given) {
     crew_->wait();
-    check_value(network_.get(), params);
+    const auto params = settled(given, network_.get());
+    given_ = given;
     const auto old = std::exchange(params_, params);
     if (old.memory_mib != params.memory_mib || old.method != params.method ||
         old.prior != params.prior) {

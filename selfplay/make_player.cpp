@@ -52,8 +52,9 @@ InternalSettings internal_settings(const PlayerSettings& settings) {
 template <engine::Game G>
 typename InProcessPlayer<G>::Load loader_of(const InternalSettings& settings) {
     if (settings.weights.empty()) return {};
-    return [weights = settings.weights, precision = settings.precision](const G& start) {
-        return search::load_player(weights, precision, start);
+    return [weights = settings.weights, precision = settings.precision,
+            method = settings.params.method](const G& start) {
+        return search::load_player(weights, precision, start, method);
     };
 }
 

@@ -306,16 +306,16 @@ TEST(AlphaGoSet, WithoutAValueNetworkEverythingIsPlayedOut) {
     std::filesystem::remove(set.file("value"));
     EXPECT_FALSE(set.load()->has_value());
     auto params = alphago_params();
-    params.lambda = 1;
+    params.method = Method::automatic;  // AlphaGo's, for such a set
     Searcher<go::Go> searcher(params);
     searcher.set_position(go::Go(5));
     searcher.set_network(set.load());
-    EXPECT_GT(searcher.think(simulations(400)).simulations, 300u);
-    params.lambda = 0.5f;
-    EXPECT_THROW(searcher.set_params(params), engine::Error);
+    const auto picture = searcher.think(simulations(400));
+    EXPECT_GT(picture.simulations, 300u);
+    EXPECT_EQ(picture.owners.size(), 25u);
     params.method = Method::puct;
     EXPECT_THROW(searcher.set_params(params), engine::Error);
-    EXPECT_EQ(searcher.params().lambda, 1);
+    EXPECT_EQ(searcher.params().method, Method::automatic);
     EXPECT_THROW(Searcher<go::Go>(params).set_network(set.load()), engine::Error);
 }
 

@@ -8,7 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/files.h"
 #include "engine/games.h"
-#include "search/load_network.h"
+#include "search/load_player.h"
 
 namespace search {
 namespace {
@@ -28,9 +28,9 @@ TYPED_TEST(Embedded, IsTheFileOfItsGame) {
 
 TYPED_TEST(Embedded, IsLoadedByItsName) {
     const auto bytes = embedded_weights(TypeParam::name);
-    const std::string name(embedded_name);
     if (bytes.empty()) {
-        EXPECT_THROW(load_network(name, nn::Precision::fp32, TypeParam()), engine::Error);
+        EXPECT_THROW(load_player(std::string(embedded_name), nn::Precision::fp32, TypeParam()),
+                     engine::Error);
     } else {
         const auto contents = nn::contents_from_bytes(bytes);
         EXPECT_EQ(contents.graph.facts.game, TypeParam::name);
@@ -39,6 +39,33 @@ TYPED_TEST(Embedded, IsLoadedByItsName) {
 
 TEST(EmbeddedWeights, ThereIsNoneForAnotherGame) {
     EXPECT_TRUE(embedded_weights("draughts").empty());
+}
+
+TEST(EmbeddedWeights, TheChoiceGoesByBoardAndMethod) {
+    const auto choice = [](int size, Method method) {
+        return embedded_choice(go::Go(size), method);
+    };
+    EXPECT_EQ(choice(5, Method::automatic), "");
+    EXPECT_EQ(choice(5, Method::puct), "go");
+    EXPECT_EQ(choice(9, Method::automatic), "go");
+    EXPECT_EQ(choice(19, Method::puct), "go");
+    EXPECT_EQ(embedded_choice(chess::Chess(), Method::automatic), "chess");
+    if (embedded_weights("alphago-19x19/policy").empty())
+        GTEST_SKIP() << "built without AlphaGo's networks";
+    EXPECT_EQ(choice(19, Method::automatic), embedded_alphago);
+    EXPECT_EQ(choice(19, Method::alphago), embedded_alphago);
+    EXPECT_EQ(choice(18, Method::automatic), "go");
+}
+
+TEST(EmbeddedWeights, AlphaGosNetworksPlayLargeBoards) {
+    if (embedded_weights("alphago-19x19/policy").empty())
+        GTEST_SKIP() << "built without AlphaGo's networks";
+    const go::Go game(19);
+    const auto source = load_player(std::string(embedded_name), nn::Precision::fp32, game);
+    ASSERT_NE(source, nullptr);
+    EXPECT_TRUE(source->blends());
+    EXPECT_NE(load_player(std::string(embedded_name), nn::Precision::fp32, go::Go(9)), nullptr);
+    EXPECT_EQ(load_player(std::string(embedded_name), nn::Precision::fp32, go::Go(5)), nullptr);
 }
 
 }  // namespace
