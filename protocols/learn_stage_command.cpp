@@ -101,21 +101,35 @@ int learn_rl(Arguments arguments) {
 }
 
 int learn_value(Arguments arguments) {
-    CLI::App app("Learns AlphaGo's value network of Go from games of its policies",
+    CLI::App app("Learns AlphaGo's value network of Go from games of its policies, or by others",
                  "sanban learn value");
     alphago::StageInput input;
     alphago::ValuePlayers players;
     alphago::ValueSettings settings;
     auto learning = alphago::policy_learning();
     add_folder_flags(app, input);
-    app.add_option("--policy", players.policy, "network that plays up to the drawn move")
+    app.add_option("--policy", players.policy,
+                   "network that plays up to the drawn move; with --records the one whose layers "
+                   "the value network begins with")
         ->required();
-    app.add_option("--rl", players.reinforced, "network that plays the rest")->required();
+    auto* const rl = app.add_option("--rl", players.reinforced, "network that plays the rest");
+    app.add_option("--records", input.records,
+                   "in place of games that are played: SGF files, or folders of them; every "
+                   "tenth game is held out")
+        ->excludes(rl);
     add_settings_flags(app, settings, "Settings");
     add_settings_flags(app, learning, "Learning");
     if (const auto status = parse_flags(app, arguments)) return *status;
+    if (input.records.empty() && players.reinforced.empty())
+        engine::fail("expected --rl, the network that plays, or --records, games by others");
     const StopOnSignal signals;
-    alphago::learn_value(input, players, settings, learning, signals.token());
+    if (input.records.empty()) {
+        alphago::learn_value(input, players, settings, learning, signals.token());
+        return 0;
+    }
+    auto fresh = alphago::value_upon(alphago::policy_to_go_on_from(players.policy),
+                                     static_cast<std::uint64_t>(settings.seed));
+    alphago::learn_value_from_records(input, std::move(fresh), settings, learning, signals.token());
     return 0;
 }
 

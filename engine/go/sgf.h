@@ -123,6 +123,9 @@ Record main_line(const Tree& tree, int most_moves = 1 << 20);
 // Whether it is a game between two from the empty board on, without handicap, in turn.
 bool is_even(const Record& record);
 
+// How RE says that it ended; ongoing where it does not.
+Outcome outcome_of(const Record& record);
+
 // A tree of one line; `facts` are root properties such as {"PB", {"sanban"}}, and stand in for
 // those made here. `comments`: to the turns, in order, as far as they go.
 Tree tree_of(const Go& start, const std::vector<Turn>& turns, std::string_view result,

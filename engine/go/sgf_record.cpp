@@ -319,6 +319,13 @@ class Replay {
 
 Record main_line(const Tree& tree, int most_moves) { return Replay(tree).run(most_moves); }
 
+Outcome outcome_of(const Record& record) {
+    const std::string_view result = record.result;
+    if (result.starts_with('B')) return Outcome::first_wins;
+    if (result.starts_with('W')) return Outcome::second_wins;
+    return result == "0" || result.starts_with('D') ? Outcome::draw : Outcome::ongoing;
+}
+
 bool is_even(const Record& record) {
     const auto& stones = record.start.board().stones();
     if (record.moves_before > 0 || record.start.handicap() > 1 || stones[0].any() ||

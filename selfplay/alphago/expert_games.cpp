@@ -20,7 +20,7 @@ bool is_sgf(const fs::path& path) {
 }
 
 ExpertGame game_of(const go::sgf::Record& record) {
-    ExpertGame game{record.start.size(), record.start.komi(), {}};
+    ExpertGame game{record.start.size(), record.start.komi(), {}, go::sgf::outcome_of(record)};
     for (const auto& turn : record.turns) game.moves.push_back(turn.move.code);
     while (!game.moves.empty() && game.moves.back() == go::Go::pass.code) game.moves.pop_back();
     return game;
@@ -39,6 +39,8 @@ std::optional<ExpertGame> selected(const go::sgf::Tree& tree, const ExpertSelect
     auto game = game_of(record);
     if (game.moves.size() < static_cast<std::size_t>(selection.least_moves))
         return count(counts.brief);
+    if (selection.finished && game.outcome == engine::Outcome::ongoing)
+        return count(counts.unfinished);
     return game;
 }
 
@@ -99,11 +101,12 @@ ExpertGames read_expert_games(std::span<const fs::path> paths, const ExpertSelec
         if (!reading.enough()) reading.read(path);
     auto games = reading.take();
     const auto& counts = games.counts;
-    say(
-        fmt::format("{} games, {} kept with {} positions; left out: {} of handicap or out of turn, "
-                    "{} of under {} moves, {} of another size, {} broken",
-                    counts.games, counts.kept, counts.positions, counts.handicap, counts.brief,
-                    selection.least_moves, counts.other_size, counts.broken));
+    say(fmt::format(
+        "{} games, {} kept with {} positions; left out: {} of handicap or out of turn, "
+        "{} of under {} moves, {} of another size, {} broken{}",
+        counts.games, counts.kept, counts.positions, counts.handicap, counts.brief,
+        selection.least_moves, counts.other_size, counts.broken,
+        selection.finished ? fmt::format(", {} without a result", counts.unfinished) : ""));
     if (games.held_out.empty())
         engine::fail("expected 10 games on {0}x{0} or more to learn from, found {1}",
                      selection.size, counts.kept);
@@ -132,6 +135,7 @@ records::Game record_of(const ExpertPlace& place) {
     records::Game record;
     record.game = go::Go::name;
     record.start = start_of(*place.game).to_text();
+    record.outcome = place.game->outcome;
     for (std::size_t i = 0; i <= place.turn; ++i) {
         const engine::Move move{place.game->moves[i]};
         const float all = 1;

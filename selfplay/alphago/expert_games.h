@@ -22,13 +22,14 @@ struct ExpertGame {
     int size = 19;
     go::Komi komi;
     std::vector<std::uint16_t> moves;  // codes, Black first, in turn; passes at the end left out
+    engine::Outcome outcome = engine::Outcome::ongoing;  // unknown
 };
 
 struct ExpertCounts {
     std::uint64_t games = 0, kept = 0, positions = 0;
     // Left out: handicap or set-up stones, colours out of turn; too few moves; what cannot be read
-    // or played; boards of another size.
-    std::uint64_t handicap = 0, brief = 0, broken = 0, other_size = 0;
+    // or played; boards of another size; without a result.
+    std::uint64_t handicap = 0, brief = 0, broken = 0, other_size = 0, unfinished = 0;
 };
 
 struct ExpertGames {
@@ -39,7 +40,8 @@ struct ExpertGames {
 struct ExpertSelection {
     int size = 19;
     int least_moves = 30;
-    int most_games = 0;  // of those kept; 0: all
+    int most_games = 0;     // of those kept; 0: all
+    bool finished = false;  // only games with a result
 };
 
 // The .sgf, .sgfs and their .gz files behind the paths, in their order, folders with all that is
@@ -70,7 +72,7 @@ class ExpertPositions {
 };
 
 go::Go start_of(const ExpertGame& game);
-// As a record that teaches the move made there and nothing else.
+// As a record that teaches the move made there, and how the game ended.
 records::Game record_of(const ExpertPlace& place);
 
 }  // namespace selfplay::alphago

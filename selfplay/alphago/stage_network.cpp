@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "engine/base/error.h"
 #include "nn/builders.h"
 
 namespace selfplay::alphago {
@@ -24,6 +27,22 @@ int planes_of(const nn::Facts& facts) {
     return engine::find_encoding<go::Go>(facts.encoding).shape(go::Go(facts.board)).planes;
 }
 
+// The weights of a convolution; planes that it did not see begin without influence.
+void take_over(const nn::Node& from, nn::Node& to) {
+    const auto& weights = from.weights[0];
+    auto& all = to.weights[0];
+    const auto rows = static_cast<std::size_t>(all.shape[0]);
+    const auto had = weights.values.size() / rows, has = all.values.size() / rows;
+    if (weights.shape[0] != all.shape[0] || weights.shape[2] != all.shape[2] || had > has)
+        engine::fail("the policy network's {} does not fit a value network", from.name);
+    std::fill(all.values.begin(), all.values.end(), 0.0f);
+    for (std::size_t row = 0; row < rows; ++row)
+        std::copy_n(weights.values.begin() + static_cast<std::ptrdiff_t>(row * had), had,
+                    all.values.begin() + static_cast<std::ptrdiff_t>(row * has));
+    for (std::size_t i = 1; i < to.weights.size() && i < from.weights.size(); ++i)
+        to.weights[i] = from.weights[i];
+}
+
 }  // namespace
 
 nn::Graph new_policy(const StageNetwork& network, std::uint64_t seed) {
@@ -36,6 +55,27 @@ nn::Graph new_value(const StageNetwork& network, std::uint64_t seed) {
     engine::Random random(seed);
     const auto facts = facts_of(network, "alphago49", "value");
     return nn::build_alphago_value(facts, planes_of(facts), random);
+}
+
+StageNetwork shape_of(const nn::Facts& facts) {
+    StageNetwork network;
+    network.layers = facts.blocks;
+    network.filters = facts.channels;
+    network.size = facts.board;
+    return network;
+}
+
+nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed) {
+    auto value = new_value(shape_of(policy.facts), seed);
+    for (auto& node : value.nodes) {
+        const auto same = [&](const nn::Node& other) {
+            return other.operation == nn::Operation::convolution && other.name == node.name;
+        };
+        const auto found = std::find_if(policy.nodes.begin(), policy.nodes.end(), same);
+        if (node.operation == nn::Operation::convolution && found != policy.nodes.end())
+            take_over(*found, node);
+    }
+    return value;
 }
 
 const nn::training::Samples& ExpertBatches::make(std::span<const ExpertPlace> places,

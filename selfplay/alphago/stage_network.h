@@ -41,6 +41,10 @@ struct StageNetwork {
 // With random weights.
 nn::Graph new_policy(const StageNetwork& network, std::uint64_t seed);
 nn::Graph new_value(const StageNetwork& network, std::uint64_t seed);
+// The layers and filters of a network that a stage made.
+StageNetwork shape_of(const nn::Facts& facts);
+// A value network that begins with the convolutions of a policy network, its head random.
+nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed);
 
 // Positions of expert games as batches, encoded on threads of its own. One owner, one thread.
 class ExpertBatches {

@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view value_encoding = "alphago49";
+
 // Plays games until the archive holds enough of them, or time is up.
 class ValueGames {
    public:
@@ -105,40 +107,104 @@ training::ReplaySettings replay_settings(const ValueSettings& settings) {
     return replay;
 }
 
-StageNetwork shape_of(const nn::Facts& facts) {
-    StageNetwork network;
-    network.layers = facts.blocks;
-    network.filters = facts.channels;
-    network.size = facts.board;
-    return network;
-}
+using Terms = std::span<const nn::training::Term>;
+
+// What a value network learns from, and what is held out to judge it by.
+class ValueLessons {
+   public:
+    virtual ~ValueLessons() = default;
+    // How much of each there is, in words.
+    virtual std::string extent() const = 0;
+    // Shown until the next call.
+    virtual const nn::training::Samples& draw(bool held_out, int count, Terms terms,
+                                              engine::Random& random) = 0;
+};
+
+class PlayedLessons final : public ValueLessons {
+   public:
+    PlayedLessons(std::vector<records::Game> games, const ValueSettings& settings, int threads)
+        : replay_(replay_settings(settings), value_encoding, threads) {
+        std::uint64_t played = 0;
+        for (auto& game : games) replay_.add(std::move(game), ++played);
+        if (replay_.lessons().positions() == 0 || replay_.held_out().positions() == 0)
+            engine::fail("expected games to learn from and to judge by, found {}", played);
+    }
+
+    std::string extent() const override {
+        return fmt::format("{} positions to learn from, {} held out", replay_.lessons().positions(),
+                           replay_.held_out().positions());
+    }
+    const nn::training::Samples& draw(bool held_out, int count, Terms terms,
+                                      engine::Random& random) override {
+        return held_out ? replay_.draw_held_out(count, terms, random)
+                        : replay_.draw(count, terms, random);
+    }
+
+   private:
+    training::Replay<go::Go> replay_;
+};
+
+class ExpertLessons final : public ValueLessons {
+   public:
+    ExpertLessons(ExpertGames games, const ValueSettings& settings, int threads)
+        : settings_(settings), games_(std::move(games)), batches_(value_encoding, threads) {}
+
+    std::string extent() const override {
+        return fmt::format("{} games to learn from, {} held out", games_.lessons.size(),
+                           games_.held_out.size());
+    }
+    const nn::training::Samples& draw(bool held_out, int count, Terms terms,
+                                      engine::Random& random) override {
+        constexpr int symmetries = 8;
+        const auto& games = held_out ? games_.held_out : games_.lessons;
+        places_.clear();
+        turns_.clear();
+        for (int i = 0; i < count; ++i) {
+            const auto number = random.below(static_cast<int>(games.size()));
+            places_.push_back(place_in(games[static_cast<std::size_t>(number)], number, random));
+            turns_.push_back(random.below(symmetries));
+        }
+        return batches_.make(places_, turns_, terms);
+    }
+
+   private:
+    ExpertPlace place_in(const ExpertGame& game, int number, engine::Random& random) const {
+        const auto turns = static_cast<int>(game.moves.size());
+        if (settings_.positions == Taught::all)
+            return {&game, static_cast<std::size_t>(random.below(turns))};
+        engine::Random once(engine::mixed(static_cast<std::uint64_t>(settings_.seed),
+                                          static_cast<std::uint64_t>(number)));
+        return {&game, static_cast<std::size_t>(once.below(turns))};
+    }
+
+    const ValueSettings& settings_;
+    ExpertGames games_;
+    ExpertBatches batches_;
+    std::vector<ExpertPlace> places_;
+    std::vector<int> turns_;
+};
 
 class ValueStage {
    public:
     ValueStage(const StageInput& input, const ValueSettings& settings,
-               const training::LearnSettings& learning, const nn::Facts& facts, const Watch& watch)
+               const training::LearnSettings& learning, nn::Graph fresh, ValueLessons& lessons,
+               const Watch& watch)
         : input_(input),
           settings_(settings),
           learning_(learning),
           watch_(watch),
           folder_(settings.positions == Taught::all ? input.folder / "all" : input.folder),
           state_(folder_.state()),
-          student_(new_value(shape_of(facts), static_cast<std::uint64_t>(settings.seed)), learning,
-                   input.threads, folder_, input.say),
-          replay_(replay_settings(settings), "alphago49", input.threads),
+          student_(std::move(fresh), learning, input.threads, folder_, input.say),
+          lessons_(lessons),
           random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
                                 static_cast<std::uint64_t>(student_.steps()))) {}
 
-    void run(std::vector<records::Game> games) {
-        std::uint64_t played = 0;
-        for (auto& game : games) replay_.add(std::move(game), ++played);
-        input_.say(fmt::format("{} positions to learn from, {} held out",
-                               replay_.lessons().positions(), replay_.held_out().positions()));
-        if (replay_.lessons().positions() == 0 || replay_.held_out().positions() == 0)
-            engine::fail("expected games to learn from and to judge by, found {}", played);
+    void run() {
+        input_.say(lessons_.extent());
         double reported = watch_.seconds();
         while (!watch_.over() && !done()) {
-            student_.learn(replay_.draw(learning_.batch, student_.terms(), random_));
+            student_.learn(draw(false, random_));
             if (watch_.seconds() < reported + settings_.report_seconds) continue;
             report();
             reported = watch_.seconds();
@@ -149,14 +215,16 @@ class ValueStage {
    private:
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
 
+    const nn::training::Samples& draw(bool held_out, engine::Random& random) {
+        return lessons_.draw(held_out, learning_.batch, student_.terms(), random);
+    }
+
     // Of positions that are learned from or held out, judged by the same weights.
     double error_of(bool held_out) {
         engine::Random random(1);
         training::QualityTally tally;
         for (int judged = 0; judged < settings_.judged; judged += learning_.batch) {
-            const auto& samples =
-                held_out ? replay_.draw_held_out(learning_.batch, student_.terms(), random)
-                         : replay_.draw(learning_.batch, student_.terms(), random);
+            const auto& samples = draw(held_out, random);
             tally.add(student_.judge(samples), student_.terms(), samples.size);
         }
         return tally.mean().value_error;
@@ -164,7 +232,7 @@ class ValueStage {
 
     void report() {
         student_.save();
-        nn::save(student_.playable(replay_.draw(1, student_.terms(), random_)), folder_.latest());
+        nn::save(student_.playable(draw(false, random_)), folder_.latest());
         student_.take_quality();
         auto now = state_;
         now.seconds += watch_.seconds();
@@ -187,7 +255,7 @@ class ValueStage {
     training::RunFolder folder_;
     training::RunState state_;  // before this call
     training::Student student_;
-    training::Replay<go::Go> replay_;
+    ValueLessons& lessons_;
     engine::Random random_;
 };
 
@@ -199,8 +267,24 @@ void learn_value(const StageInput& input, const ValuePlayers& players,
     const Watch watch(input, stop);
     ValueGames games(input, players, settings, watch);
     games.play();
-    if (!watch.over())
-        ValueStage(input, settings, learning, games.facts(), watch).run(games.read());
+    if (watch.over()) return;
+    PlayedLessons lessons(games.read(), settings, input.threads);
+    auto fresh = new_value(shape_of(games.facts()), static_cast<std::uint64_t>(settings.seed));
+    ValueStage(input, settings, learning, std::move(fresh), lessons, watch).run();
+}
+
+void learn_value_from_records(const StageInput& input, nn::Graph fresh,
+                              const ValueSettings& settings,
+                              const training::LearnSettings& learning,
+                              const std::stop_token& stop) {
+    const Watch watch(input, stop);
+    ExpertSelection selection;
+    selection.size = fresh.facts.board;
+    selection.most_games = settings.games;
+    selection.finished = true;
+    ExpertLessons lessons(read_expert_games(input.records, selection, input.say), settings,
+                          input.threads);
+    ValueStage(input, settings, learning, std::move(fresh), lessons, watch).run();
 }
 
 }  // namespace selfplay::alphago

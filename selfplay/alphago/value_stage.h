@@ -1,7 +1,8 @@
 // Stage 3 of AlphaGo's training: games in which the supervised policy plays up to a drawn move,
 // then one move is drawn uniformly and the reinforced policy plays on, and a value network that
 // learns the outcome from the one position after the drawn move; or, as the paper's
-// counter-example, from every position of the same games. FOLDER holds games/, checkpoints,
+// counter-example, from every position of the same games. Where the machine is too small to play
+// so many, games by others take their place. FOLDER holds games/, checkpoints,
 // latest.safetensors and value.jsonl; the counter-example's stand in FOLDER/all. Blocks.
 #pragma once
 
@@ -9,6 +10,7 @@
 #include <tuple>
 
 #include "engine/base/option.h"
+#include "nn/graph.h"
 #include "selfplay/alphago/stage.h"
 #include "selfplay/training/learn_settings.h"
 
@@ -32,7 +34,7 @@ struct ValueSettings {
         return std::tuple{
             Option<P, int>{"seed", &P::seed, 0, 0x7fffffff, "of all randomness"},
             Option<P, int>{"games", &P::games, 20, 100'000'000,
-                           "played in all before learning begins"},
+                           "played in all before learning begins; of records at most"},
             Choice<P, Taught>{"positions", &P::positions, taught_names,
                               "learned from of each game: one, or all, which overfits"},
             Option<P, int>{"steps", &P::steps, 0, 2'000'000'000,
@@ -55,5 +57,11 @@ struct ValuePlayers {
 void learn_value(const StageInput& input, const ValuePlayers& players,
                  const ValueSettings& settings, const training::LearnSettings& learning,
                  const std::stop_token& stop);
+
+// From how games by others ended, the records of the input: of each, one position that is drawn
+// once for all, or another one each time. `fresh`: the value network to begin with. Fails likewise.
+void learn_value_from_records(const StageInput& input, nn::Graph fresh,
+                              const ValueSettings& settings,
+                              const training::LearnSettings& learning, const std::stop_token& stop);
 
 }  // namespace selfplay::alphago

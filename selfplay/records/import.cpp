@@ -100,14 +100,11 @@ class Import {
     void add(const go::sgf::Record& record) {
         std::vector<Move> moves;
         for (const auto& turn : record.turns) moves.push_back(turn.move);
-        const auto won = [&](char side) { return record.result.starts_with(side); };
+        const auto outcome = go::sgf::outcome_of(record);
         if (!go::sgf::is_even(record))
             ++counts_.uneven;
-        else if (won('B') || won('W') || record.result == "0" || won('D'))
-            keep(record_of(record.start, moves,
-                           won('B')   ? Outcome::first_wins
-                           : won('W') ? Outcome::second_wins
-                                      : Outcome::draw));
+        else if (outcome != Outcome::ongoing)
+            keep(record_of(record.start, moves, outcome));
         else
             ++counts_.unfinished;
     }

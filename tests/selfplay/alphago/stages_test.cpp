@@ -139,7 +139,7 @@ TEST(PolicyStage, LearnsAndGoesOn) {
         stage.input.folder = stage.folder.path() / planes_names[static_cast<std::size_t>(planes)];
         const StageNetwork network{2, 8, 5, planes};
         stage.lines.clear();
-        settings.steps = 150;
+        settings.steps = 400;
         learn_policy(stage.input, new_policy(network, 1), settings, learning, {});
         ASSERT_EQ(stage.lines.size(), 1u);
         EXPECT_GT(stage.lines[0]["held_out_accuracy"], 0.6);
@@ -158,7 +158,7 @@ TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
     auto settings = short_games();
     for (const bool norms : {false, true}) {
         settings.norms = norms;
-        settings.steps = 150;
+        settings.steps = 400;
         stage.input.folder = stage.folder.path() / (norms ? "normed" : "plain");
         learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, fast_learning(), {});
         EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
@@ -176,7 +176,7 @@ TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
 TEST(PolicyStage, GoesOnFromAFileInAnotherFolder) {
     Stage stage;
     auto settings = short_games();
-    settings.steps = 150;
+    settings.steps = 400;
     const auto learning = fast_learning();
     learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, learning, {});
     const auto learned = stage.input.folder / "latest.safetensors";
@@ -333,6 +333,41 @@ TEST(ValueStage, OnePositionAGameOrAll) {
     EXPECT_EQ(stage.lines[1]["positions"], "all");
     EXPECT_TRUE(fs::exists(stage.input.folder / "all" / "latest.safetensors"));
     EXPECT_TRUE(nn::load(stage.input.folder / "latest.safetensors").output("value"));
+}
+
+TEST(ValueStage, LearnsFromGamesByOthersUponThePolicysLayers) {
+    Stage stage;
+    // Who begins in the centre wins, who begins elsewhere loses.
+    std::string text;
+    for (int i = 0; i < 40; ++i) {
+        text += i % 2 == 0 ? "(;SZ[5]RE[B+R];B[cc]" : "(;SZ[5]RE[W+R];B[aa]";
+        for (int ply = 0; ply < 32; ++ply) text += ply % 2 == 0 ? ";W[]" : ";B[]";
+        text += ";W[bd])\n";
+    }
+    text += "(;SZ[5];B[cc];W[bb])\n";  // without a result
+    engine::write_file(stage.input.records[0], text);
+    const auto policy = policy_to_go_on_from(saved_policy(stage, 1));
+    const auto fresh = value_upon(policy, 1);
+    const auto weights_of = [](const nn::Graph& graph, std::string_view name) {
+        for (const auto& node : graph.nodes)
+            if (node.operation == nn::Operation::convolution && node.name == name)
+                return node.weights[0].values;
+        return std::vector<float>();
+    };
+    EXPECT_EQ(weights_of(fresh, "layer2"), weights_of(policy, "layer2"));
+    EXPECT_FALSE(weights_of(fresh, "layer2").empty());
+    ValueSettings settings;
+    settings.steps = 400;
+    settings.judged = 64;
+    settings.positions = Taught::all;
+    auto learning = policy_learning();
+    learning.batch = 32;
+    learning.rate = 0.003f;
+    learning.warm_up = 0;
+    learning.average = 0;
+    learn_value_from_records(stage.input, fresh, settings, learning, {});
+    ASSERT_EQ(stage.lines.size(), 1u);
+    EXPECT_LT(stage.lines[0]["test_error"], 0.3) << stage.lines[0];
 }
 
 TEST(TrainAlphaGo, AllStagesMakeASetThatPlays) {
