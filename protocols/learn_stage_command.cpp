@@ -127,9 +127,9 @@ int learn_value(Arguments arguments) {
         alphago::learn_value(input, players, settings, learning, signals.token());
         return 0;
     }
-    auto fresh = alphago::value_upon(alphago::policy_to_go_on_from(players.policy),
-                                     static_cast<std::uint64_t>(settings.seed));
-    alphago::learn_value_from_records(input, std::move(fresh), settings, learning, signals.token());
+    const auto fresh = alphago::value_upon(alphago::policy_to_go_on_from(players.policy),
+                                           static_cast<std::uint64_t>(settings.seed));
+    alphago::learn_value_from_records(input, fresh, settings, learning, signals.token());
     return 0;
 }
 

@@ -7,7 +7,6 @@
 #include "engine/base/error.h"
 #include "nn/load.h"
 #include "nn/passes.h"
-#include "nn/training/norms.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/training/student.h"
 
@@ -47,15 +46,12 @@ class PolicyStage {
     }
 
    private:
-    // What a new folder begins with; where a checkpoint is, its weights come in place of these.
     nn::Graph begin(nn::Graph fresh) {
         if (!settings_.norms) return fresh;
-        auto normed = nn::unfold_batch_norms(fresh);
-        if (folder_.has_checkpoint()) return normed;
-        const auto learner = training::learner_settings(learning_, normed, input_.threads);
         engine::Random random(static_cast<std::uint64_t>(settings_.seed));
-        const auto& samples = draw(random, learner.terms);
-        return nn::training::fit_norms(std::move(normed), samples, learner);
+        return with_norms(
+            fresh, folder_, learning_, input_.threads,
+            [&](auto terms) -> const nn::training::Samples& { return draw(random, terms); });
     }
 
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }

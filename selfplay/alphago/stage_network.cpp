@@ -6,6 +6,9 @@
 
 #include "engine/base/error.h"
 #include "nn/builders.h"
+#include "nn/passes.h"
+#include "nn/training/norms.h"
+#include "selfplay/training/student.h"
 
 namespace selfplay::alphago {
 
@@ -76,6 +79,16 @@ nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed) {
             take_over(*found, node);
     }
     return value;
+}
+
+nn::Graph with_norms(
+    const nn::Graph& fresh, const training::RunFolder& folder,
+    const training::LearnSettings& learning, int threads,
+    const std::function<const nn::training::Samples&(std::span<const nn::training::Term>)>& draw) {
+    auto normed = nn::unfold_batch_norms(fresh);
+    if (folder.has_checkpoint()) return normed;
+    const auto learner = training::learner_settings(learning, normed, threads);
+    return nn::training::fit_norms(std::move(normed), draw(learner.terms), learner);
 }
 
 const nn::training::Samples& ExpertBatches::make(std::span<const ExpertPlace> places,

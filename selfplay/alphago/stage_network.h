@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "nn/training/workers.h"
 #include "selfplay/alphago/expert_games.h"
 #include "selfplay/training/batch.h"
+#include "selfplay/training/folder.h"
+#include "selfplay/training/learn_settings.h"
 
 namespace selfplay::alphago {
 
@@ -45,6 +48,14 @@ nn::Graph new_value(const StageNetwork& network, std::uint64_t seed);
 StageNetwork shape_of(const nn::Facts& facts);
 // A value network that begins with the convolutions of a policy network, its head random.
 nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed);
+
+// A network with batch norms to learn with, fitted to the samples that `draw` yields for such terms
+// so that it computes what it did. Where the folder has a checkpoint, whose weights come in place
+// of these, nothing is fitted.
+nn::Graph with_norms(
+    const nn::Graph& fresh, const training::RunFolder& folder,
+    const training::LearnSettings& learning, int threads,
+    const std::function<const nn::training::Samples&(std::span<const nn::training::Term>)>& draw);
 
 // Positions of expert games as batches, encoded on threads of its own. One owner, one thread.
 class ExpertBatches {

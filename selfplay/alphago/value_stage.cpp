@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/files.h"
 #include "nn/load.h"
+#include "nn/passes.h"
 #include "selfplay/alphago/policy_games.h"
 #include "selfplay/alphago/stage_network.h"
 #include "selfplay/records/segment.h"
@@ -187,16 +188,16 @@ class ExpertLessons final : public ValueLessons {
 class ValueStage {
    public:
     ValueStage(const StageInput& input, const ValueSettings& settings,
-               const training::LearnSettings& learning, nn::Graph fresh, ValueLessons& lessons,
-               const Watch& watch)
+               const training::LearnSettings& learning, const nn::Graph& fresh,
+               ValueLessons& lessons, const Watch& watch)
         : input_(input),
           settings_(settings),
           learning_(learning),
           watch_(watch),
           folder_(settings.positions == Taught::all ? input.folder / "all" : input.folder),
           state_(folder_.state()),
-          student_(std::move(fresh), learning, input.threads, folder_, input.say),
           lessons_(lessons),
+          student_(begin(fresh), learning, input.threads, folder_, input.say),
           random_(engine::mixed(static_cast<std::uint64_t>(settings.seed),
                                 static_cast<std::uint64_t>(student_.steps()))) {}
 
@@ -215,6 +216,15 @@ class ValueStage {
    private:
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
 
+    nn::Graph begin(const nn::Graph& fresh) {
+        if (!settings_.norms) return fresh;
+        engine::Random random(static_cast<std::uint64_t>(settings_.seed));
+        return with_norms(fresh, folder_, learning_, input_.threads,
+                          [&](Terms terms) -> const nn::training::Samples& {
+                              return lessons_.draw(false, learning_.batch, terms, random);
+                          });
+    }
+
     const nn::training::Samples& draw(bool held_out, engine::Random& random) {
         return lessons_.draw(held_out, learning_.batch, student_.terms(), random);
     }
@@ -232,7 +242,7 @@ class ValueStage {
 
     void report() {
         student_.save();
-        nn::save(student_.playable(draw(false, random_)), folder_.latest());
+        nn::save(nn::fold_batch_norms(student_.playable(draw(false, random_))), folder_.latest());
         student_.take_quality();
         auto now = state_;
         now.seconds += watch_.seconds();
@@ -254,8 +264,8 @@ class ValueStage {
     const Watch& watch_;
     training::RunFolder folder_;
     training::RunState state_;  // before this call
-    training::Student student_;
     ValueLessons& lessons_;
+    training::Student student_;
     engine::Random random_;
 };
 
@@ -269,11 +279,12 @@ void learn_value(const StageInput& input, const ValuePlayers& players,
     games.play();
     if (watch.over()) return;
     PlayedLessons lessons(games.read(), settings, input.threads);
-    auto fresh = new_value(shape_of(games.facts()), static_cast<std::uint64_t>(settings.seed));
-    ValueStage(input, settings, learning, std::move(fresh), lessons, watch).run();
+    const auto fresh =
+        new_value(shape_of(games.facts()), static_cast<std::uint64_t>(settings.seed));
+    ValueStage(input, settings, learning, fresh, lessons, watch).run();
 }
 
-void learn_value_from_records(const StageInput& input, nn::Graph fresh,
+void learn_value_from_records(const StageInput& input, const nn::Graph& fresh,
                               const ValueSettings& settings,
                               const training::LearnSettings& learning,
                               const std::stop_token& stop) {
@@ -284,7 +295,7 @@ void learn_value_from_records(const StageInput& input, nn::Graph fresh,
     selection.finished = true;
     ExpertLessons lessons(read_expert_games(input.records, selection, input.say), settings,
                           input.threads);
-    ValueStage(input, settings, learning, std::move(fresh), lessons, watch).run();
+    ValueStage(input, settings, learning, fresh, lessons, watch).run();
 }
 
 }  // namespace selfplay::alphago

@@ -26,9 +26,11 @@ struct ValueSettings {
     int steps = 0;
     int judged = 2000;
     int report_seconds = 60;
+    bool norms = true;
 
     static constexpr auto options() {
         using engine::Choice;
+        using engine::Flag;
         using engine::Option;
         using P = ValueSettings;
         return std::tuple{
@@ -42,6 +44,9 @@ struct ValueSettings {
             Option<P, int>{"judged", &P::judged, 1, 1'000'000, "positions held out, in a report"},
             Option<P, int>{"report-seconds", &P::report_seconds, 1, 100'000,
                            "between two reports, each with a checkpoint"},
+            Flag<P>{"norms", &P::norms,
+                    "batch norms while it learns, folded away in the network that plays; the "
+                    "paper: none"},
         };
     }
 };
@@ -60,7 +65,7 @@ void learn_value(const StageInput& input, const ValuePlayers& players,
 
 // From how games by others ended, the records of the input: of each, one position that is drawn
 // once for all, or another one each time. `fresh`: the value network to begin with. Fails likewise.
-void learn_value_from_records(const StageInput& input, nn::Graph fresh,
+void learn_value_from_records(const StageInput& input, const nn::Graph& fresh,
                               const ValueSettings& settings,
                               const training::LearnSettings& learning, const std::stop_token& stop);
 

@@ -139,7 +139,7 @@ TEST(PolicyStage, LearnsAndGoesOn) {
         stage.input.folder = stage.folder.path() / planes_names[static_cast<std::size_t>(planes)];
         const StageNetwork network{2, 8, 5, planes};
         stage.lines.clear();
-        settings.steps = 400;
+        settings.steps = 150;
         learn_policy(stage.input, new_policy(network, 1), settings, learning, {});
         ASSERT_EQ(stage.lines.size(), 1u);
         EXPECT_GT(stage.lines[0]["held_out_accuracy"], 0.6);
@@ -158,7 +158,7 @@ TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
     auto settings = short_games();
     for (const bool norms : {false, true}) {
         settings.norms = norms;
-        settings.steps = 400;
+        settings.steps = 150;
         stage.input.folder = stage.folder.path() / (norms ? "normed" : "plain");
         learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, fast_learning(), {});
         EXPECT_GT(stage.lines.back()["held_out_accuracy"], 0.6);
@@ -176,7 +176,7 @@ TEST(PolicyStage, LeavesNoNormsInTheNetworkThatPlays) {
 TEST(PolicyStage, GoesOnFromAFileInAnotherFolder) {
     Stage stage;
     auto settings = short_games();
-    settings.steps = 400;
+    settings.steps = 150;
     const auto learning = fast_learning();
     learn_policy(stage.input, new_policy({2, 8, 5}, 1), settings, learning, {});
     const auto learned = stage.input.folder / "latest.safetensors";
