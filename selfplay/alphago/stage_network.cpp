@@ -91,6 +91,16 @@ nn::Graph with_norms(
     return nn::training::fit_norms(std::move(normed), draw(learner.terms), learner);
 }
 
+void standardise(nn::Graph& normed, std::string_view convolution) {
+    for (auto& node : normed.nodes) {
+        if (node.operation != nn::Operation::batch_norm) continue;
+        if (normed.nodes[static_cast<std::size_t>(node.inputs[0])].name != convolution) continue;
+        auto &scale = node.weights[2].values, &shift = node.weights[3].values;
+        std::fill(scale.begin(), scale.end(), 1.0f);
+        std::fill(shift.begin(), shift.end(), 0.0f);
+    }
+}
+
 const nn::training::Samples& ExpertBatches::make(std::span<const ExpertPlace> places,
                                                  std::span<const int> symmetries,
                                                  std::span<const nn::training::Term> terms) {

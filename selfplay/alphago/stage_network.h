@@ -57,6 +57,9 @@ nn::Graph with_norms(
     const training::LearnSettings& learning, int threads,
     const std::function<const nn::training::Samples&(std::span<const nn::training::Term>)>& draw);
 
+// Has the norm behind that convolution answer with mean 0 and deviation 1.
+void standardise(nn::Graph& normed, std::string_view convolution);
+
 // Positions of expert games as batches, encoded on threads of its own. One owner, one thread.
 class ExpertBatches {
    public:

@@ -217,12 +217,14 @@ class ValueStage {
     bool done() const { return settings_.steps > 0 && student_.steps() >= settings_.steps; }
 
     nn::Graph begin(const nn::Graph& fresh) {
-        if (!settings_.norms) return fresh;
         engine::Random random(static_cast<std::uint64_t>(settings_.seed));
-        return with_norms(fresh, folder_, learning_, input_.threads,
-                          [&](Terms terms) -> const nn::training::Samples& {
-                              return lessons_.draw(false, learning_.batch, terms, random);
-                          });
+        auto normed = with_norms(fresh, folder_, learning_, input_.threads,
+                                 [&](Terms terms) -> const nn::training::Samples& {
+                                     return lessons_.draw(false, learning_.batch, terms, random);
+                                 });
+        // The layers of a policy say so much that tanh would answer +-1 throughout, and not learn.
+        standardise(normed, "layer13");
+        return settings_.norms ? normed : nn::fold_batch_norms(std::move(normed));
     }
 
     const nn::training::Samples& draw(bool held_out, engine::Random& random) {
