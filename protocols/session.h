@@ -62,8 +62,8 @@ class Session {
     virtual search::SearchParams params() const = 0;
     virtual void set_params(const search::SearchParams& params) = 0;
     // Searches with the network of this file from now on; with games played out when the name is
-    // empty. Fails, all being as before, when the file or its game or board is wrong. What
-    // this program carries (search::embedded_name) goes by board and method, and gives way to games
+    // empty. Fails, all being as before, when the file or its game or board is wrong. What this
+    // program carries (search::embedded_name) goes by board and method, and gives way to games
     // played out on boards that it does not serve.
     virtual void load_network(const std::string& file, search::PrecisionChoice precision) = 0;
     // Where the network's policy has a legal move; 0 without a network.
@@ -185,7 +185,7 @@ class GameSession final : public Session {
 
     search::SearchParams params() const override { return params_; }
     void set_params(const search::SearchParams& params) override {
-        const bool anew = embedded_ && params.method != params_.method;
+        const bool anew = embedded_ && choice(now(), params.method) != embedded_->name;
         if (anew) searcher_.set_network(nullptr);
         searcher_.set_params(for_tree(params));
         params_ = params;
@@ -208,9 +208,9 @@ class GameSession final : public Session {
     void prepare_for(const G& start) {
         if (!embedded_) return searcher_.check(start);
         if constexpr (engine::Encoded<G>) {
-            const auto choice = search::embedded_choice(start, params_.method);
-            const bool lacks = !choice.empty() && !searcher_.has_network();
-            if (lacks || choice != embedded_->name || !serves(start))
+            const auto name = choice(start, params_.method);
+            const bool lacks = !name.empty() && !searcher_.has_network();
+            if (lacks || name != embedded_->name || !serves(start))
                 load_embedded(start, embedded_->precision);
         }
     }
@@ -254,6 +254,11 @@ class GameSession final : public Session {
         searcher_.warm_up();
     }
 
+    static std::string_view choice(const G& game, search::Method method) {
+        if constexpr (engine::Encoded<G>) return search::embedded_choice(game, method);
+        return {};
+    }
+
     // Of what this program carries.
     struct Embedded {
         std::string_view name;  // as embedded_choice says
@@ -261,7 +266,7 @@ class GameSession final : public Session {
     };
 
     void load_embedded(const G& game, search::PrecisionChoice precision) {
-        embedded_ = {search::embedded_choice(game, params_.method), precision};
+        embedded_ = {choice(game, params_.method), precision};
         std::shared_ptr<const search::EvaluatorSource<G>> source;
         try {
             source = search::load_embedded(embedded_->name, precision, game);

@@ -71,7 +71,11 @@ struct ExactSet {
         : policy(contents_of_policy(where, find)),
           value(exact(find("value"))),
           reinforced(exact(find("rl"))) {
-        if (const auto contents = find("rollout")) linear = linear_policies_of(contents->graph);
+        if (const auto contents = find("rollout")) try {
+                linear = linear_policies_of(contents->graph);
+            } catch (const engine::Error& error) {
+                fail("{}/rollout.safetensors: {}", where, error.what());
+            }
     }
 
     AlphaGoSet as_it_is() const {

@@ -4,8 +4,6 @@
 
 #include "engine/base/error.h"
 #include "nn/builders.h"
-#include "nn/load.h"
-#include "search/network.h"
 
 namespace search {
 
@@ -53,16 +51,6 @@ std::shared_ptr<const go::LinearPolicies> linear_policies_of(const nn::Graph& gr
     const auto logits = logits_of(graph);
     return std::make_shared<const go::LinearPolicies>(
         go::LinearPolicies{go::Factors(logits.rollout), go::Factors(logits.tree)});
-}
-
-std::shared_ptr<const go::LinearPolicies> load_linear_policies(const std::string& name) {
-    const auto path = find_weights(name);
-    const auto graph = nn::load(path);
-    try {
-        return linear_policies_of(graph);
-    } catch (const engine::Error& error) {
-        engine::fail("{}: {}", path.string(), error.what());
-    }
 }
 
 }  // namespace search

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/go/linear_policy.h"
@@ -23,9 +22,5 @@ LinearLogits logits_of(const nn::Graph& graph);
 
 // Fails as logits_of.
 std::shared_ptr<const go::LinearPolicies> linear_policies_of(const nn::Graph& graph);
-
-// Fails with engine::Error, naming the file, when it holds no such policies. `name` as find_weights
-// takes it.
-std::shared_ptr<const go::LinearPolicies> load_linear_policies(const std::string& name);
 
 }  // namespace search

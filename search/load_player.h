@@ -22,8 +22,8 @@ std::string_view embedded_choice(const G& game, Method method) {
     if constexpr (std::is_same_v<G, go::Go>) {
         constexpr int least_size = 7;
         if (game.size() < least_size && method == Method::automatic) return {};
-        const bool suits = method == Method::automatic || method == Method::alphago;
-        if (game.size() == 19 && suits &&
+        const bool goes_by_values = method == Method::puct || method == Method::gumbel;
+        if (game.size() == 19 && !goes_by_values &&
             !embedded_weights(fmt::format("{}/policy", embedded_alphago)).empty())
             return embedded_alphago;
     }

@@ -87,15 +87,14 @@ TEST(LinearLearner, AFileGoesOn) {
         learner->judge(game, game.move_at({2, 2}));
     }
     EXPECT_EQ(one.take_quality()[1].loss, other.take_quality()[1].loss);
-    EXPECT_NE(search::load_linear_policies((folder.path() / "linear.safetensors").string()),
-              nullptr);
+    EXPECT_NE(search::linear_policies_of(nn::load(folder.path() / "linear.safetensors")), nullptr);
 }
 
 TEST(LinearLearner, RefusesAnotherNetwork) {
     const tests::TemporaryFolder folder;
     nn::save(new_policy({2, 4, 5}, 1), folder.path() / "policy.safetensors");
     EXPECT_THROW(LinearLearner().restore(folder.path() / "policy.safetensors"), engine::Error);
-    EXPECT_THROW(search::load_linear_policies((folder.path() / "policy.safetensors").string()),
+    EXPECT_THROW(search::linear_policies_of(nn::load(folder.path() / "policy.safetensors")),
                  engine::Error);
 }
 
