@@ -252,13 +252,16 @@ Graph build_alphago_policy(const Facts& facts, int planes, engine::Random& rando
     return builder.finish();
 }
 
-Graph build_alphago_value(const Facts& facts, int planes, engine::Random& random) {
+Graph build_alphago_value(const Facts& facts, int planes, engine::Random& random, int pooled) {
     Builder builder(facts, random);
     const int trunk = alphago_trunk(builder, planes);
     const int points = facts.board * facts.board;
-    const int plane =
-        builder.relu("layer13", builder.convolution("layer13", trunk, facts.channels, 1, 1));
-    const int hidden = builder.dense_relu("hidden", builder.flat("layer13", plane), points, 256);
+    const int filters = pooled == 0 ? 1 : pooled;
+    const int seen =
+        builder.relu("layer13", builder.convolution("layer13", trunk, facts.channels, filters, 1));
+    const int head = pooled == 0 ? builder.flat("layer13", seen)
+                                 : add_pool(builder.graph(), "layer13.mean", seen, Pooling::mean);
+    const int hidden = builder.dense_relu("hidden", head, pooled == 0 ? points : pooled, 256);
     const int last = builder.dense("last", hidden, 256, 1, last_layer);
     name_output(builder.graph(), "value",
                 add_activation(builder.graph(), "value", last, Activation::tanh));

@@ -42,8 +42,10 @@ Graph build_tower(const TowerDescription& description, engine::Random& random);
 // all) and 1x1 to one plane with a bias per point; behind the points the pass, from the plane's
 // mean.
 Graph build_alphago_policy(const Facts& facts, int planes, engine::Random& random);
-// The same convolutions, 1x1 to one plane, 256 ReLU, one tanh.
-Graph build_alphago_value(const Facts& facts, int planes, engine::Random& random);
+// The same convolutions, 1x1 to one plane, 256 ReLU, one tanh. `pooled`: 1x1 to so many planes
+// instead, of which only the means over the board are looked at; far fewer weights, for who has
+// fewer games than the paper's 30 million.
+Graph build_alphago_value(const Facts& facts, int planes, engine::Random& random, int pooled = 0);
 
 // Dense layers with ReLU between them over the input "globals"; widths from input to output. Its
 // one output is "output".

@@ -127,8 +127,9 @@ int learn_value(Arguments arguments) {
         alphago::learn_value(input, players, settings, learning, signals.token());
         return 0;
     }
-    const auto fresh = alphago::value_upon(alphago::policy_to_go_on_from(players.policy),
-                                           static_cast<std::uint64_t>(settings.seed));
+    const auto fresh =
+        alphago::value_upon(alphago::policy_to_go_on_from(players.policy),
+                            static_cast<std::uint64_t>(settings.seed), settings.pooled);
     alphago::learn_value_from_records(input, fresh, settings, learning, signals.token());
     return 0;
 }

@@ -54,10 +54,10 @@ nn::Graph new_policy(const StageNetwork& network, std::uint64_t seed) {
     return nn::build_alphago_policy(facts, planes_of(facts), random);
 }
 
-nn::Graph new_value(const StageNetwork& network, std::uint64_t seed) {
+nn::Graph new_value(const StageNetwork& network, std::uint64_t seed, int pooled) {
     engine::Random random(seed);
     const auto facts = facts_of(network, "alphago49", "value");
-    return nn::build_alphago_value(facts, planes_of(facts), random);
+    return nn::build_alphago_value(facts, planes_of(facts), random, pooled);
 }
 
 StageNetwork shape_of(const nn::Facts& facts) {
@@ -68,8 +68,8 @@ StageNetwork shape_of(const nn::Facts& facts) {
     return network;
 }
 
-nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed) {
-    auto value = new_value(shape_of(policy.facts), seed);
+nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed, int pooled) {
+    auto value = new_value(shape_of(policy.facts), seed, pooled);
     for (auto& node : value.nodes) {
         const auto same = [&](const nn::Node& other) {
             return other.operation == nn::Operation::convolution && other.name == node.name;

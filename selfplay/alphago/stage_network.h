@@ -43,11 +43,12 @@ struct StageNetwork {
 
 // With random weights.
 nn::Graph new_policy(const StageNetwork& network, std::uint64_t seed);
-nn::Graph new_value(const StageNetwork& network, std::uint64_t seed);
+// `pooled`: filters of a head that is pooled; 0: the paper's, which is not.
+nn::Graph new_value(const StageNetwork& network, std::uint64_t seed, int pooled = 0);
 // The layers and filters of a network that a stage made.
 StageNetwork shape_of(const nn::Facts& facts);
 // A value network that begins with the convolutions of a policy network, its head random.
-nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed);
+nn::Graph value_upon(const nn::Graph& policy, std::uint64_t seed, int pooled = 0);
 
 // A network with batch norms to learn with, fitted to the samples that `draw` yields for such terms
 // so that it computes what it did. Where the folder has a checkpoint, whose weights come in place

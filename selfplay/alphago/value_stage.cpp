@@ -231,20 +231,24 @@ class ValueStage {
         return lessons_.draw(held_out, learning_.batch, student_.terms(), random);
     }
 
-    // Of positions that are learned from or held out, judged by the same weights.
-    double error_of(bool held_out) {
+    // Of positions that are learned from or held out. The network that plays is asked: what the
+    // learner's running statistics make of weights that change is worse, at times than nothing.
+    double error_of(nn::training::Learner& playing, bool held_out) {
         engine::Random random(1);
         training::QualityTally tally;
         for (int judged = 0; judged < settings_.judged; judged += learning_.batch) {
             const auto& samples = draw(held_out, random);
-            tally.add(student_.judge(samples), student_.terms(), samples.size);
+            tally.add(playing.evaluate(samples), student_.terms(), samples.size);
         }
         return tally.mean().value_error;
     }
 
     void report() {
         student_.save();
-        nn::save(nn::fold_batch_norms(student_.playable(draw(false, random_))), folder_.latest());
+        auto graph = student_.playable(draw(false, random_));
+        nn::training::Learner playing(graph,
+                                      training::learner_settings(learning_, graph, input_.threads));
+        nn::save(nn::fold_batch_norms(std::move(graph)), folder_.latest());
         student_.take_quality();
         auto now = state_;
         now.seconds += watch_.seconds();
@@ -255,8 +259,8 @@ class ValueStage {
             {"minutes", now.seconds / 60},
             {"steps", student_.steps()},
             {"samples", student_.steps() * learning_.batch},
-            {"train_error", error_of(false)},
-            {"test_error", error_of(true)}};
+            {"train_error", error_of(playing, false)},
+            {"test_error", error_of(playing, true)}};
         tell(input_, folder_.path() / "value.jsonl", line.dump());
     }
 
@@ -281,8 +285,8 @@ void learn_value(const StageInput& input, const ValuePlayers& players,
     games.play();
     if (watch.over()) return;
     PlayedLessons lessons(games.read(), settings, input.threads);
-    const auto fresh =
-        new_value(shape_of(games.facts()), static_cast<std::uint64_t>(settings.seed));
+    const auto fresh = new_value(shape_of(games.facts()), static_cast<std::uint64_t>(settings.seed),
+                                 settings.pooled);
     ValueStage(input, settings, learning, fresh, lessons, watch).run();
 }
 

@@ -27,6 +27,7 @@ struct ValueSettings {
     int judged = 2000;
     int report_seconds = 60;
     bool norms = true;
+    int pooled = 0;
 
     static constexpr auto options() {
         using engine::Choice;
@@ -47,6 +48,9 @@ struct ValueSettings {
             Flag<P>{"norms", &P::norms,
                     "batch norms while it learns, folded away in the network that plays; the "
                     "paper: none"},
+            Option<P, int>{"pooled", &P::pooled, 0, 1024,
+                           "filters of the head, of which the means over the board are looked at; "
+                           "0: one plane, point by point, as in the paper"},
         };
     }
 };

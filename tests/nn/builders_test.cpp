@@ -91,6 +91,9 @@ TEST(Builders, AlphaGo) {
     EXPECT_EQ(parameter_count(value),
               49 * 12 * 25 + 12 + 11 * (12 * 12 * 9 + 12) + 12 + 1 + 81 * 256 + 256 + 256 + 1);
     expect_sound(value, 9);
+    const auto pooled = build_alphago_value(facts, 49, random, 8);
+    EXPECT_EQ(parameter_count(pooled), parameter_count(value) - 13 + 8 * 13 - (81 - 8) * 256);
+    expect_sound(pooled, 9);
 }
 
 TEST(Builders, Mlp) {

@@ -66,7 +66,7 @@ TEST(Onednn, AlphagoAndPlainLayers) {
     facts.channels = 16;
     for (const auto& graph :
          {build_alphago_policy(facts, 48, random), build_alphago_value(facts, 49, random),
-          build_mlp({}, {4, 300, 300, 3}, random)})
+          build_alphago_value(facts, 49, random, 8), build_mlp({}, {4, 300, 300, 3}, random)})
         EXPECT_LT(difference(graph, Precision::fp32, 9, 2, random), 1e-3);
 }
 

@@ -74,7 +74,8 @@ TEST(Learner, AlphaGosNetworksLearnABatchByHeart) {
     facts.board = 5;
     facts.channels = 8;
     for (const auto& graph :
-         {build_alphago_policy(facts, 6, random), build_alphago_value(facts, 7, random)}) {
+         {build_alphago_policy(facts, 6, random), build_alphago_value(facts, 7, random),
+          build_alphago_value(facts, 7, random, 8)}) {
         const auto report = learned_by_heart(graph, quick(0.003f), 200, 5);
         EXPECT_LT(report.costs[0].mean_loss(), 0.05) << graph.outputs[0].name;
     }
