@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -327,10 +328,18 @@ TEST(ValueStage, OnePositionAGameOrAll) {
         }
     EXPECT_GE(games, 60u);
     settings.positions = Taught::all;
+    settings.pooled = 4;
     learn_value(stage.input, players, settings, learning, {});
     ASSERT_EQ(stage.lines.size(), 2u);
     EXPECT_EQ(stage.lines[1]["positions"], "all");
-    EXPECT_TRUE(fs::exists(stage.input.folder / "all" / "latest.safetensors"));
+    const auto pools = [](const fs::path& file) {
+        const auto nodes = nn::load(file).nodes;
+        return std::any_of(nodes.begin(), nodes.end(), [](const nn::Node& node) {
+            return node.operation == nn::Operation::pool;
+        });
+    };
+    EXPECT_TRUE(pools(stage.input.folder / "all" / "latest.safetensors"));
+    EXPECT_FALSE(pools(stage.input.folder / "latest.safetensors"));
     EXPECT_TRUE(nn::load(stage.input.folder / "latest.safetensors").output("value"));
 }
 
