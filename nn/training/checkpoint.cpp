@@ -18,6 +18,10 @@ std::string state_name(Method method, std::size_t row) {
     return row == 0 ? "adamw.first" : "adamw.second";
 }
 
+// How many steps the optimiser's state is of; a checkpoint that does not say so is of a network
+// that nothing else taught.
+constexpr auto updates_name = "updates";
+
 const std::vector<float>& row_of(const Extras& extras, const std::string& name, std::size_t size) {
     const auto found = extras.find(name);
     if (found == extras.end()) fail("expected a checkpoint with \"{}\", found none", name);
@@ -51,7 +55,8 @@ void restore_from(const std::string& bytes, const std::filesystem::path& path, G
 }  // namespace
 
 void Learner::save(const std::filesystem::path& path) const {
-    Extras extras{{"average", average_}};
+    Extras extras{{"average", average_},
+                  {updates_name, {static_cast<float>(optimiser_.updates())}}};
     for (std::size_t row = 0; row < optimiser_.state().size(); ++row)
         extras[state_name(optimiser_.settings().method, row)] = optimiser_.state()[row];
     engine::write_file(path, to_safetensors(newest(), extras));
@@ -69,7 +74,10 @@ void Learner::restore(const std::filesystem::path& path) {
         state.push_back(row_of(extras, state_name(optimiser_.settings().method, row), size));
     weights_ = parameters_.read(stored);
     average_ = std::move(average);
-    optimiser_.restore(std::move(state));
+    const auto updates = extras.contains(updates_name)
+                             ? static_cast<std::int64_t>(row_of(extras, updates_name, 1)[0])
+                             : stored.facts.steps;
+    optimiser_.restore(std::move(state), updates);
     graph_.facts.steps = stored.facts.steps;
 }
 

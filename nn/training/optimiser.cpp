@@ -7,7 +7,6 @@ namespace nn::training {
 
 struct Optimiser::Part {
     Slot slot;
-    std::int64_t steps;
     float rate, factor;  // of the gradient, so that its norm is not too large
     float decay;
     std::span<const float> gradients;
@@ -38,18 +37,15 @@ void Optimiser::step(std::int64_t steps, std::span<const float> gradients,
     for (const auto& slot : parameters_.slots()) {
         if (slot.role == Role::statistic) continue;
         const bool decays = slot.role == Role::matrix || settings_.decay_all;
-        const Part part{slot,
-                        steps,
-                        settings_.schedule.at(steps),
-                        factor,
-                        decays ? settings_.weight_decay : 0,
-                        gradients,
-                        weights};
+        const Part part{slot,      settings_.schedule.at(steps, updates_),
+                        factor,    decays ? settings_.weight_decay : 0,
+                        gradients, weights};
         if (settings_.method == Method::sgd)
             descend(part);
         else
             adapt(part);
     }
+    ++updates_;
 }
 
 // v = momentum v + g; w -= rate v, or with Nesterov's look ahead rate (g + momentum v).
@@ -73,7 +69,7 @@ void Optimiser::adapt(const Part& part) {
     const float in_gradient = in_loss ? 2 * part.decay : 0;
     const float kept = in_loss ? 1 : 1 - part.rate * part.decay;
     const float b1 = settings_.first_moment, b2 = settings_.second_moment;
-    const auto count = static_cast<double>(part.steps + 1);
+    const auto count = static_cast<double>(updates_ + 1);
     const auto unbias1 = static_cast<float>(1 / (1 - std::pow(double{b1}, count)));
     const auto unbias2 = static_cast<float>(1 / (1 - std::pow(double{b2}, count)));
     for (std::size_t i = part.slot.offset; i < part.slot.offset + part.slot.size; ++i) {

@@ -35,12 +35,18 @@ class Optimiser {
    public:
     Optimiser(const Parameters& parameters, OptimiserSettings settings);
 
-    // The step after `steps` of them. Statistics of batch norms stay as they are.
+    // The step after `steps` of the network's, which its schedule goes by. Statistics of batch
+    // norms stay as they are.
     void step(std::int64_t steps, std::span<const float> gradients, std::span<float> weights);
 
     // Momentum; of AdamW both moments.
     const std::vector<std::vector<float>>& state() const { return state_; }
-    void restore(std::vector<std::vector<float>> state) { state_ = std::move(state); }
+    // The steps that the state is of: fewer than the network's where that was taught before.
+    std::int64_t updates() const { return updates_; }
+    void restore(std::vector<std::vector<float>> state, std::int64_t updates) {
+        state_ = std::move(state);
+        updates_ = updates;
+    }
     const OptimiserSettings& settings() const { return settings_; }
 
    private:
@@ -51,6 +57,7 @@ class Optimiser {
     const Parameters& parameters_;
     OptimiserSettings settings_;
     std::vector<std::vector<float>> state_;
+    std::int64_t updates_ = 0;
 };
 
 }  // namespace nn::training

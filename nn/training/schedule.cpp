@@ -6,7 +6,7 @@
 
 namespace nn::training {
 
-float Schedule::at(std::int64_t steps) const {
+float Schedule::at(std::int64_t steps, std::int64_t updates) const {
     float now = rate;
     for (const auto& [step, lower] : drops)
         if (steps >= step) now = lower;
@@ -15,7 +15,7 @@ float Schedule::at(std::int64_t steps) const {
         const double height = (1 + std::cos(std::numbers::pi * done)) / 2;
         now = static_cast<float>(last_rate + (now - last_rate) * height);
     }
-    if (steps < warm_up) now *= static_cast<float>(steps + 1) / static_cast<float>(warm_up);
+    if (updates < warm_up) now *= static_cast<float>(updates + 1) / static_cast<float>(warm_up);
     return now;
 }
 

@@ -25,9 +25,10 @@ struct Trial {
     std::vector<float> weights = parameters.read(graph);
     std::vector<float> gradients = {1, 1, 9, 9, 0, 0};
 
-    void run(const OptimiserSettings& settings, int steps) {
+    // Upon a network that has had `before` steps.
+    void run(const OptimiserSettings& settings, int steps, int before = 0) {
         Optimiser optimiser(parameters, settings);
-        for (int i = 0; i < steps; ++i) optimiser.step(i, gradients, weights);
+        for (int i = 0; i < steps; ++i) optimiser.step(before + i, gradients, weights);
     }
 };
 
@@ -60,6 +61,15 @@ TEST(Optimiser, AdamStepsAreOfTheRateWhateverTheGradient) {
     trial.run(plain(Method::adamw), 5);
     EXPECT_NEAR(trial.weights[0], 2 - 0.5, 1e-4);
     EXPECT_NEAR(trial.weights[1], 2 + 0.5, 1e-4);
+}
+
+TEST(Optimiser, BeginsUponATaughtNetworkAsUponAFreshOne) {
+    auto settings = plain(Method::adamw);
+    settings.schedule.warm_up = 4;
+    settings.schedule.drops = {{500, 0.01f}};
+    Trial taught;
+    taught.run(settings, 4, 10'000);
+    EXPECT_NEAR(taught.weights[0], 2 - 0.01 * (0.25 + 0.5 + 0.75 + 1), 1e-5);
 }
 
 TEST(Optimiser, DecayInLossIsTwiceTheWeightInTheGradient) {
@@ -99,18 +109,19 @@ TEST(Optimiser, LongGradientsAreCutToTheNorm) {
 
 TEST(Schedule, DropsWarmUpAndCosine) {
     Schedule zero{0.2f, 0, {{100, 0.02f}, {300, 0.002f}}};
-    EXPECT_FLOAT_EQ(zero.at(0), 0.2f);
-    EXPECT_FLOAT_EQ(zero.at(99), 0.2f);
-    EXPECT_FLOAT_EQ(zero.at(100), 0.02f);
-    EXPECT_FLOAT_EQ(zero.at(5000), 0.002f);
+    EXPECT_FLOAT_EQ(zero.at(0, 0), 0.2f);
+    EXPECT_FLOAT_EQ(zero.at(99, 99), 0.2f);
+    EXPECT_FLOAT_EQ(zero.at(100, 100), 0.02f);
+    EXPECT_FLOAT_EQ(zero.at(5000, 5000), 0.002f);
     zero.warm_up = 10;
-    EXPECT_FLOAT_EQ(zero.at(0), 0.02f);
-    EXPECT_FLOAT_EQ(zero.at(4), 0.1f);
-    EXPECT_FLOAT_EQ(zero.at(10), 0.2f);
+    EXPECT_FLOAT_EQ(zero.at(0, 0), 0.02f);
+    EXPECT_FLOAT_EQ(zero.at(4, 4), 0.1f);
+    EXPECT_FLOAT_EQ(zero.at(10, 10), 0.2f);
+    EXPECT_FLOAT_EQ(zero.at(300, 4), 0.001f) << "by an optimiser that came late";
     const Schedule cosine{1, 0, {}, 200, 0.1f};
-    EXPECT_FLOAT_EQ(cosine.at(0), 1);
-    EXPECT_FLOAT_EQ(cosine.at(100), 0.55f);
-    EXPECT_FLOAT_EQ(cosine.at(999), 0.1f);
+    EXPECT_FLOAT_EQ(cosine.at(0, 0), 1);
+    EXPECT_FLOAT_EQ(cosine.at(100, 100), 0.55f);
+    EXPECT_FLOAT_EQ(cosine.at(999, 999), 0.1f);
 }
 
 }  // namespace
