@@ -18,8 +18,8 @@ std::string state_name(Method method, std::size_t row) {
     return row == 0 ? "adamw.first" : "adamw.second";
 }
 
-// How many steps the optimiser's state is of; a checkpoint that does not say so is of a network
-// that nothing else taught.
+// How many steps the optimiser's state is of; where a checkpoint does not say so, it is taken for
+// as old as the network.
 constexpr auto updates_name = "updates";
 
 const std::vector<float>& row_of(const Extras& extras, const std::string& name, std::size_t size) {
