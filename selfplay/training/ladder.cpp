@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,7 +41,8 @@ std::vector<Ladder::Fixed> Ladder::fixed_opponents() const {
     for (const int simulations : {1000, 10'000, 100'000})
         fixed.push_back({fmt::format("UCT {}", simulations),
                          rollout_player(simulations),
-                         {250 * (std::log10(simulations) - 3), 200}});
+                         {250 * (std::log10(simulations) - 3), 200},
+                         simulations});
     const auto program = gnugo();
     if (settings_.game != "go" || settings_.actors.size < 7 || !program) return fixed;
     Fixed player{"GNU Go 10", {}, {400, 400}};
@@ -81,16 +83,21 @@ void Ladder::read() {
         } else {
             const auto a = rung_named(json.value("a", ""), 0),
                        b = rung_named(json.value("b", ""), 0);
-            add(a, b, {json.value("wins", 0), json.value("draws", 0), json.value("losses", 0)});
+            add(a, b, {json.value("wins", 0), json.value("draws", 0), json.value("losses", 0)},
+                json.value("took", 0.0));
         }
     }
     if (!text.empty() && text.back() != '\n') engine::append_file(folder_.ladder(), "\n");
 }
 
-void Ladder::add(std::size_t a, std::size_t b, const Tally& tally) {
+void Ladder::add(std::size_t a, std::size_t b, const Tally& tally, double seconds) {
     pairings_.push_back({a, b, tally});
     rungs_[a].games += tally.games();
     rungs_[b].games += tally.games();
+    if (seconds > 0) {
+        rungs_[b].timed_games += tally.games();
+        rungs_[b].timed_seconds += seconds;
+    }
     played_ += static_cast<std::uint64_t>(tally.games());
 }
 
@@ -130,14 +137,28 @@ int Ladder::games_between(std::size_t a, std::size_t b) const {
     return games;
 }
 
-// Whose result would tell most for its cost: neither too strong nor too weak, and not yet met
-// often.
-std::size_t Ladder::best_opponent(std::size_t rung) const {
+// Likely: as long as those that were timed. Where none was, UCT takes as much longer than a smaller
+// UCT as it has more simulations; what nothing is known of is given the chance to be timed.
+double Ladder::seconds_a_game(std::size_t opponent) const {
+    const Rung& rung = rungs_[opponent];
+    if (rung.timed_games > 0) return rung.timed_seconds / rung.timed_games;
+    if (opponent >= fixed_.size() || fixed_[opponent].simulations == 0) return 0;
+    for (std::size_t smaller = opponent; smaller-- > 0;)
+        if (rungs_[smaller].timed_games > 0)
+            return seconds_a_game(smaller) * fixed_[opponent].simulations /
+                   fixed_[smaller].simulations;
+    return 0;
+}
+
+// Whose result would tell most of those that can be paid for: neither too strong nor too weak, and
+// not yet met often. The first, who costs least, where none can.
+std::size_t Ladder::best_opponent(std::size_t rung, double most_seconds) const {
     std::size_t best = 0;
     double most = -1;
     for (std::size_t i = 0; i < rungs_.size(); ++i) {
         if (i == rung) continue;
         if (i >= fixed_.size() && !fs::exists(file_of(rungs_[i].name))) continue;
+        if (games_a_measure() * seconds_a_game(i) > most_seconds) continue;
         const double expected = share_of(rungs_[rung].strength.elo - rungs_[i].strength.elo);
         const double told = expected * (1 - expected) / (4 + games_between(rung, i));
         if (told > most) {
@@ -148,19 +169,18 @@ std::size_t Ladder::best_opponent(std::size_t rung) const {
     return best;
 }
 
-void Ladder::measure(const std::stop_token& stop) {
+void Ladder::measure(const std::stop_token& stop, double most_seconds) {
     if (!newest()) return;
-    const std::size_t rung = rungs_.size() - 1, other = best_opponent(rung);
-    Duel duel{player_of(rung), player_of(other), 2 * std::max(1, threads_ / 2), threads_, played_};
+    const std::size_t rung = rungs_.size() - 1, other = best_opponent(rung, most_seconds);
+    Duel duel{player_of(rung), player_of(other), games_a_measure(), threads_, played_};
+    const auto begun = std::chrono::steady_clock::now();
     const auto tally = play(settings_, duel, stop);
     if (tally.games() == 0) return;
-    const Json json{{"a", rungs_[rung].name},
-                    {"b", rungs_[other].name},
-                    {"wins", tally.wins},
-                    {"draws", tally.draws},
-                    {"losses", tally.losses}};
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const Json json{{"a", rungs_[rung].name}, {"b", rungs_[other].name}, {"wins", tally.wins},
+                    {"draws", tally.draws},   {"losses", tally.losses},  {"took", took.count()}};
     engine::append_file(folder_.ladder(), json.dump() + '\n');
-    add(rung, other, tally);
+    add(rung, other, tally, took.count());
     rate();
 }
 

@@ -4,6 +4,7 @@
 // one thread.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <stop_token>
 #include <string>
@@ -21,6 +22,8 @@ struct Rung {
     double seconds = -1;  // of the run when the network was kept; -1: a fixed opponent
     int games = 0;
     Strength strength;
+    int timed_games = 0;       // of those that it was the opponent in,
+    double timed_seconds = 0;  // which took so long in all
 };
 
 class Ladder {
@@ -32,8 +35,9 @@ class Ladder {
     void keep(std::int64_t steps, double seconds);
     // Whether the newest one is so old that it is time for another, or there is none.
     bool wants_snapshot(double seconds) const;
-    // Plays a pair of games for every two threads, if there is a network to measure.
-    void measure(const std::stop_token& stop);
+    // Plays a pair of games for every two threads, if there is a network to measure, against an
+    // opponent with whom that is not likely to take more than `most_seconds`.
+    void measure(const std::stop_token& stop, double most_seconds);
 
     // Fixed opponents first, then networks as they came.
     const std::vector<Rung>& rungs() const { return rungs_; }
@@ -44,15 +48,18 @@ class Ladder {
         std::string name;
         PlayerSettings player;
         Belief belief;
+        int simulations = 0;  // a move; 0: not ours
     };
     std::vector<Fixed> fixed_opponents() const;
     std::filesystem::path file_of(const std::string& name) const;
     PlayerSettings player_of(std::size_t rung) const;
     std::size_t rung_named(const std::string& name, double seconds);
     void read();
-    void add(std::size_t a, std::size_t b, const Tally& tally);
+    void add(std::size_t a, std::size_t b, const Tally& tally, double seconds);
     void rate();
-    std::size_t best_opponent(std::size_t rung) const;
+    int games_a_measure() const { return 2 * std::max(1, threads_ / 2); }
+    double seconds_a_game(std::size_t opponent) const;
+    std::size_t best_opponent(std::size_t rung, double most_seconds) const;
     int games_between(std::size_t a, std::size_t b) const;
 
     const RunFolder& folder_;

@@ -80,16 +80,18 @@ bool Run<G>::passes_gate(const nn::Graph& graph, const nn::Calibration& calibrat
     return verdict.passed;
 }
 
-// A pair of games where measuring has had less than its share of the time.
+// A pair of games where measuring has had less than its share of the time. Learning waits for it,
+// so it is not to take longer than all that share so far, but for a minute.
 template <engine::Encoded G>
 void Run<G>::measure(const std::stop_token& stop) {
     const double share = double{settings_.run.ladder_share};
-    if (!measures_ || share <= 0 || measure_seconds_ > share * since(started_)) return;
+    const double due = share * since(started_);
+    if (!measures_ || share <= 0 || measure_seconds_ > due) return;
     const auto begun = Clock::now();
     try {
         const double seconds = standing().state.seconds;
         if (ladder_.wants_snapshot(seconds)) ladder_.keep(student_.steps(), seconds);
-        ladder_.measure(stop);
+        ladder_.measure(stop, std::max(due, 60.0));
     } catch (const engine::Error& error) {
         say_(fmt::format("no more games to measure strength: {}", error.what()));
         measures_ = false;

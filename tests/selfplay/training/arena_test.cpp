@@ -2,6 +2,7 @@
 // they pass.
 #include <gtest/gtest.h>
 
+#include "engine/base/files.h"
 #include "nn/compose.h"
 #include "nn/load.h"
 #include "selfplay/training/ladder.h"
@@ -90,7 +91,7 @@ TEST_F(Arena, TheLadderKeepsNetworksAndResults) {
         ladder.keep(100, 60);
         EXPECT_FALSE(ladder.wants_snapshot(70));
         EXPECT_TRUE(ladder.wants_snapshot(60 + 30 * 60));
-        ladder.measure({});
+        ladder.measure({}, 60);
         ASSERT_NE(ladder.newest(), nullptr);
         EXPECT_EQ(ladder.newest()->games, 2);
     }
@@ -100,6 +101,37 @@ TEST_F(Arena, TheLadderKeepsNetworksAndResults) {
     EXPECT_EQ(again.newest()->games, 2);
     EXPECT_EQ(again.newest()->seconds, 60);
     EXPECT_GT(again.newest()->strength.deviation, 0);
+}
+
+TEST_F(Arena, TheLadderPassesOverAnOpponentThatWouldTakeTooLong) {
+    const RunFolder folder(temporary.path() / "run");
+    std::filesystem::copy_file(eager, folder.latest());
+    set_setting(settings, "ladder-simulations", "8");
+    {
+        Ladder ladder(folder, settings, 1);
+        ladder.keep(10, 30);
+        ladder.keep(50, 60);
+    }
+    // As strong as step 10, by whom it would be measured best.
+    engine::append_file(folder.ladder(),
+                        R"({"a":"step 50","b":"UCT 1000","wins":8,"draws":0,"losses":0,"took":0.8}
+{"a":"step 50","b":"step 10","wins":4,"draws":0,"losses":4,"took":800}
+{"a":"step 50","b":"UCT 10000","wins":0,"draws":0,"losses":8,"took":80000}
+)");
+    const auto games_of = [](const Ladder& ladder, std::string_view name) {
+        return std::ranges::find(ladder.rungs(), name, &Rung::name)->games;
+    };
+    {
+        Ladder ladder(folder, settings, 1);
+        ladder.measure({}, 199);
+        EXPECT_EQ(games_of(ladder, "UCT 1000"), 10);
+    }
+    Ladder again(folder, settings, 1);
+    EXPECT_EQ(again.rungs().front().timed_games, 10);
+    again.measure({}, 201);
+    EXPECT_EQ(games_of(again, "step 10"), 10);
+    // Of which nothing is known but that it has more simulations than what takes too long.
+    EXPECT_EQ(games_of(again, "UCT 100000"), 0);
 }
 
 }  // namespace
