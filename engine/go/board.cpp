@@ -25,6 +25,33 @@ std::uint64_t stone_key(int at, Colour colour) {
     return zobrist[static_cast<std::size_t>(at) + (colour == Colour::white ? 1024u : 0u)];
 }
 
+// Sets of points to which one is added at a time: true where it is new.
+constexpr int few_liberties = 4;
+class Few {
+   public:
+    bool add(int at) {
+        for (std::size_t i = 0; i < count_; ++i)
+            if (points_[i] == at) return false;
+        points_[count_++] = at;
+        return true;
+    }
+
+   private:
+    std::array<int, few_liberties> points_;
+    std::size_t count_ = 0;
+};
+class Many {
+   public:
+    bool add(int at) {
+        const auto point = static_cast<std::size_t>(at);
+        if (points_[point]) return false;
+        return points_.set(point), true;
+    }
+
+   private:
+    std::bitset<1024> points_;
+};
+
 std::size_t side(Colour colour) { return colour == Colour::white ? 1 : 0; }
 
 }  // namespace
@@ -48,22 +75,27 @@ bool Board::holds(int at) const {
     return at > 0 && at < stride() * (size_ + 1) && cell(at).colour() != Colour::edge;
 }
 
+template <class Seen>
+int Board::distinct_liberties(int at, int most) const {
+    Seen seen;
+    int count = 0, stone = at;
+    do {
+        for (const int beside : neighbours(stone)) {
+            if (this->at(beside) != Colour::empty || !seen.add(beside)) continue;
+            if (++count == most) return most;
+        }
+        stone = next(stone);
+    } while (stone != at);
+    return count;
+}
+
 int Board::liberties(int at, int most) const {
     const int sides = cell(head(at)).liberties();
     if (sides <= 1) return std::min(sides, most);
     // A point has four sides at most.
     if (sides > 4 * (most - 1)) return most;
-    std::bitset<most_cells> seen;
-    int count = 0, stone = at;
-    do {
-        for (const int beside : neighbours(stone))
-            if (this->at(beside) == Colour::empty && !seen[static_cast<std::size_t>(beside)]) {
-                seen.set(static_cast<std::size_t>(beside));
-                ++count;
-            }
-        stone = next(stone);
-    } while (stone != at && count < most);
-    return std::min(count, most);
+    return most <= few_liberties ? distinct_liberties<Few>(at, most)
+                                 : distinct_liberties<Many>(at, most);
 }
 
 bool Board::fills_last_liberty(int at, int beside) const {

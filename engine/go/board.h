@@ -145,6 +145,8 @@ class Board {
     Cell& cell(int at) { return cells_[static_cast<std::size_t>(at)]; }
     // Is `at` the last liberty of the chain of its neighbour `beside`?
     bool fills_last_liberty(int at, int beside) const;
+    template <class Seen>
+    int distinct_liberties(int at, int most) const;
     std::uint64_t chain_key(int at) const;
     void put(int at, Colour colour);
     void join(int a, int b);

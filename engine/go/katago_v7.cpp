@@ -124,30 +124,48 @@ class KatagoWriter {
         return past;
     }
 
-    void write_ladders(int included) {
+    // Whether the board `ago` moves back may have a ko: only what took a stone leaves one.
+    bool may_have_ko(int ago) const {
+        if (ago == 0) return game_.ko_point().has_value();
+        const auto move = game_.move_before(ago);
+        if (!move || *move == Go::pass) return false;
+        const auto count = [&](int moves) {
+            const auto& stones = game_.stones_before(moves);
+            return stones[0].count() + stones[1].count();
+        };
+        return count(ago) <= count(ago + 1);
+    }
+
+    Ladders ladders_before(int ago) const {
+        if (may_have_ko(ago)) return read_ladders(board_before(ago));
+        auto& memory = LadderMemory::of_this_thread();
         const auto& board = game_.board();
-        const auto enemy = opponent(colour_of(game_.to_play()));
-        for_each_ladder(board_before(0), [&](int stone, const std::vector<int>& captures) {
-            board.for_each_stone(stone, [&](int at) { set(in_ladder, at); });
-            if (board.at(stone) != enemy) return;
-            for (const int move : captures) set(ladder_captures_plane, move);
-        });
+        if (ago == 0) return memory.recall(size_, board.stones(), [&] { return board; });
+        const auto& stones = game_.stones_before(ago);
+        return memory.recall(size_, stones, [&] { return Board(size_, stones); });
+    }
+
+    void write_ladders(int included) {
+        const auto ladders = ladders_before(0);
+        write_points(in_ladder, ladders.stones);
+        const auto enemy = ~game_.to_play();
+        write_points(ladder_captures_plane, ladders.captures[enemy == Player::first ? 0 : 1]);
         if (included < 1) {
             copy_plane(in_ladder, in_ladder_before);
         } else {
-            write_past_ladders(in_ladder_before, 1);
+            write_points(in_ladder_before, ladders_before(1).stones);
         }
         if (included < 2) {
             copy_plane(in_ladder_before, in_ladder_two_before);
         } else {
-            write_past_ladders(in_ladder_two_before, 2);
+            write_points(in_ladder_two_before, ladders_before(2).stones);
         }
     }
 
-    void write_past_ladders(int plane, int ago) {
-        const auto past = board_before(ago);
-        for_each_ladder(past, [&](int stone, const std::vector<int>&) {
-            past.board.for_each_stone(stone, [&](int at) { set(plane, at); });
+    void write_points(int plane, const PointSet& points) {
+        if (points.none()) return;
+        game_.board().for_each_point([&](int at) {
+            if (points[game_.board().order(at)]) set(plane, at);
         });
     }
 

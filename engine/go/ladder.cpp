@@ -1,6 +1,7 @@
 #include "engine/go/ladder.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace go {
 
@@ -214,6 +215,37 @@ std::vector<int> ladder_captures(const LadderBoard& position, int stone) {
         if (dies_in_ladder(next, stone)) working.push_back(move);
     }
     return working;
+}
+
+Ladders read_ladders(const LadderBoard& position) {
+    const auto& board = position.board;
+    Ladders read;
+    const auto stands = [&](int chain) {
+        board.for_each_stone(chain, [&](int at) { read.stones.set(board.order(at)); });
+    };
+    board.for_each_point([&](int at) {
+        const auto colour = board.at(at);
+        if (colour == Colour::empty || board.head(at) != at) return;
+        const int liberties = board.liberties(at, 3);
+        if (liberties == 1 && dies_in_ladder(position, at)) stands(at);
+        if (liberties != 2) return;
+        const auto captures = ladder_captures(position, at);
+        if (!captures.empty()) stands(at);
+        for (const int move : captures)
+            read.captures[colour == Colour::black ? 0 : 1].set(board.order(move));
+    });
+    return read;
+}
+
+LadderMemory& LadderMemory::of_this_thread() {
+    thread_local LadderMemory memory;
+    return memory;
+}
+
+LadderMemory::Entry& LadderMemory::entry_of(int size, const Stones& stones) {
+    const std::hash<PointSet> hash;
+    const auto key = hash(stones[0]) * 31 + hash(stones[1]) + static_cast<std::size_t>(size);
+    return entries_[key % entries];
 }
 
 }  // namespace go

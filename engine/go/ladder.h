@@ -3,6 +3,8 @@
 // reading gives up.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "engine/go/board.h"
@@ -25,19 +27,38 @@ bool dies_in_ladder(const LadderBoard& position, int stone);
 // that works; none where the chain has another number of liberties.
 std::vector<int> ladder_captures(const LadderBoard& position, int stone);
 
-// Calls action(stone, captures) for one stone of every chain that stands in a working ladder: of
-// one liberty (captures is empty then) or of two.
-template <class Action>
-void for_each_ladder(const LadderBoard& position, Action action) {
-    position.board.for_each_point([&](int at) {
-        const auto colour = position.board.at(at);
-        if (colour == Colour::empty || position.board.head(at) != at) return;
-        const int liberties = position.board.liberties(at, 3);
-        if (liberties == 1 && dies_in_ladder(position, at)) action(at, std::vector<int>{});
-        if (liberties != 2) return;
-        const auto captures = ladder_captures(position, at);
-        if (!captures.empty()) action(at, captures);
-    });
-}
+// The points of a board's working ladders, in its order.
+struct Ladders {
+    PointSet stones;                   // of all chains in one, of one liberty or of two
+    std::array<PointSet, 2> captures;  // the moves that start one against Black's and White's
+};
+Ladders read_ladders(const LadderBoard& position);
+
+// What this thread has read of boards without a ko. Networks are shown the ladders of the last
+// three boards, and a search or a game that goes on by a move has read two of them before.
+class LadderMemory {
+   public:
+    // `board()` makes the board that has these stones; it is called where they are not known.
+    template <class MakeBoard>
+    const Ladders& recall(int size, const Stones& stones, MakeBoard board) {
+        Entry& entry = entry_of(size, stones);
+        if (entry.size != size || entry.stones != stones)
+            entry = {size, stones, read_ladders({board(), 0})};
+        return entry.ladders;
+    }
+    static LadderMemory& of_this_thread();
+
+   private:
+    struct Entry {
+        int size = 0;
+        Stones stones;
+        Ladders ladders;
+    };
+    static constexpr std::size_t entries = 1024;  // some 400 KB
+
+    Entry& entry_of(int size, const Stones& stones);
+
+    std::vector<Entry> entries_{entries};
+};
 
 }  // namespace go
