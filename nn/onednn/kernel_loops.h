@@ -212,24 +212,40 @@ void transform(const Transform& t) {
     if (t.channels % lanes != 0) transform_from(t, t.channels / lanes * lanes);
 }
 
-void pool_one(const Pool& p, const float* in, float* out) {
-    float* most = out + std::ptrdiff_t{2} * p.channels;
-    const bool maximum = p.pooling == Pooling::mean_maximum;
-    for (int c = 0; c < p.channels; ++c) out[c] = in[c];
-    if (maximum)
-        for (int c = 0; c < p.channels; ++c) most[c] = in[c];
+// Sum and maximum over all points, of the channels at `first`; null: the maximum is not wanted.
+void gather_vector(const Pool& p, const float* in, int first, float* sum, float* most) {
+    Floats total = load(in + first), highest = total;
     for (int point = 1; point < p.points; ++point) {
-        const float* row = in + std::ptrdiff_t{point} * p.channels;
-        for (int c = 0; c < p.channels; ++c) out[c] += row[c];
-        if (maximum)
-            for (int c = 0; c < p.channels; ++c) most[c] = row[c] > most[c] ? row[c] : most[c];
+        const Floats x = load(in + std::ptrdiff_t{point} * p.channels + first);
+        total += x;
+        highest = x > highest ? x : highest;
     }
+    put(total, sum, first);
+    if (most != nullptr) put(highest, most, first);
+}
+void gather_one(const Pool& p, const float* in, int channel, float* sum, float* most) {
+    float total = in[channel], highest = total;
+    for (int point = 1; point < p.points; ++point) {
+        const float x = in[std::ptrdiff_t{point} * p.channels + channel];
+        total += x;
+        highest = x > highest ? x : highest;
+    }
+    sum[channel] = total;
+    if (most != nullptr) most[channel] = highest;
+}
+
+void pool_one(const Pool& p, const float* in, float* out) {
+    float* third = out + std::ptrdiff_t{2} * p.channels;
+    float* most = p.pooling == Pooling::mean_maximum ? third : nullptr;
+    int done = 0;
+    for (; done + lanes <= p.channels; done += lanes) gather_vector(p, in, done, out, most);
+    for (; done < p.channels; ++done) gather_one(p, in, done, out, most);
     for (int c = 0; c < p.channels; ++c) out[c] /= static_cast<float>(p.points);
     if (p.pooling == Pooling::mean) return;
     const float d = p.side - 14;
     for (int c = 0; c < p.channels; ++c) out[p.channels + c] = out[c] * (d * 0.1f);
-    if (!maximum)
-        for (int c = 0; c < p.channels; ++c) most[c] = out[c] * (d * d * 0.01f - 0.1f);
+    if (p.pooling == Pooling::mean_quadratic)
+        for (int c = 0; c < p.channels; ++c) third[c] = out[c] * (d * d * 0.01f - 0.1f);
 }
 
 void pool(const Pool& p) {
@@ -238,28 +254,109 @@ void pool(const Pool& p) {
         pool_one(p, p.in + std::ptrdiff_t{i} * p.points * p.channels, p.out + i * width);
 }
 
+template <int... lane>
+struct Lanes {};
+using AllLanes = Lanes<0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15>;
+
+// Of the square of two rows by twice `width` columns, and its likes along both, the two blocks off
+// the diagonal change places.
+template <int width, int... lane>
+inline void exchange(Floats& a, Floats& b, Lanes<lane...>) {
+    const Floats upper = a;
+    a = __builtin_shufflevector(upper, b, ((lane & width) == 0 ? lane : lanes + lane - width)...);
+    b = __builtin_shufflevector(upper, b, ((lane & width) == 0 ? lane + width : lanes + lane)...);
+}
+template <int width>
+inline void exchange(Floats* rows) {
+    for (int i = 0; i < lanes; ++i)
+        if ((i & width) == 0) exchange<width>(rows[i], rows[i + width], AllLanes());
+}
+
+// A square of sixteen rows, so far apart in memory, its rows made its columns.
+struct Square {
+    Square(const float* from, std::ptrdiff_t distance) {
+        for (int i = 0; i < lanes; ++i) rows[i] = load(from + i * distance);
+        exchange<8>(rows);
+        exchange<4>(rows);
+        exchange<2>(rows);
+        exchange<1>(rows);
+    }
+    Floats rows[lanes];
+};
+
+// Calls action(first, second) for squares that cover a * b, the last ones overlapping; false where
+// none fits.
+template <class Action>
+bool cover(int a, int b, Action action) {
+    if (a < lanes || b < lanes) return false;
+    for (int i = 0; i < a; i += lanes)
+        for (int j = 0; j < b; j += lanes) action(smaller(i, a - lanes), smaller(j, b - lanes));
+    return true;
+}
+
+// One number of a position after another.
+void to_rows_singly(const Turn& t, const float* planes, std::ptrdiff_t row) {
+    for (int point = 0; point < t.points; ++point, row += t.channels)
+        for (int c = 0; c < t.channels; c += chunk) {
+            const int n = smaller(chunk, t.channels - c);
+            float v[chunk];
+            for (int j = 0; j < n; ++j) v[j] = planes[std::ptrdiff_t{c + j} * t.points + point];
+            if (t.post != nullptr)
+                for (int j = 0; j < n; ++j) v[j] *= t.post[c + j];
+            store(v, t.out, t.format, row + c, n);
+        }
+}
+
+template <Format format>
 void to_rows(const Turn& t) {
-    const float* planes = t.in;
-    std::ptrdiff_t row = 0;
-    for (int i = 0; i < t.positions; ++i, planes += std::ptrdiff_t{t.points} * t.channels)
-        for (int point = 0; point < t.points; ++point, row += t.channels)
-            for (int c = 0; c < t.channels; c += chunk) {
-                const int n = smaller(chunk, t.channels - c);
-                float v[chunk];
-                for (int j = 0; j < n; ++j) v[j] = planes[std::ptrdiff_t{c + j} * t.points + point];
-                if (t.post != nullptr)
-                    for (int j = 0; j < n; ++j) v[j] *= t.post[c + j];
-                store(v, t.out, t.format, row + c, n);
+    const auto post = source_or(t.post, ones);
+    const std::ptrdiff_t size = std::ptrdiff_t{t.points} * t.channels;
+    for (int i = 0; i < t.positions; ++i) {
+        const float* planes = t.in + i * size;
+        const bool covered = cover(t.channels, t.points, [&](int channel, int point) {
+            const Square turned(planes + std::ptrdiff_t{channel} * t.points + point, t.points);
+            const Floats factor = post.at(channel);
+            std::ptrdiff_t row = i * size + std::ptrdiff_t{point} * t.channels + channel;
+            for (const Floats& v : turned.rows) {
+                put_as<format>(v * factor, t.out, row);
+                row += t.channels;
             }
+        });
+        if (!covered) to_rows_singly(t, planes, i * size);
+    }
+}
+
+void to_rows(const Turn& t) {
+    switch (t.format) {
+        case Format::f32:
+            return to_rows<Format::f32>(t);
+        case Format::bf16:
+            return to_rows<Format::bf16>(t);
+        case Format::u8:
+            return to_rows<Format::u8>(t);
+        case Format::s8:
+            return to_rows<Format::s8>(t);
+    }
 }
 
 void to_planes(const Turn& t) {
-    const float* rows = t.in;
-    float* out = static_cast<float*>(t.out);
-    for (int i = 0; i < t.positions; ++i, rows += std::ptrdiff_t{t.points} * t.channels)
+    const std::ptrdiff_t size = std::ptrdiff_t{t.points} * t.channels;
+    for (int i = 0; i < t.positions; ++i) {
+        const float* rows = t.in + i * size;
+        float* out = static_cast<float*>(t.out) + i * size;
+        const bool covered = cover(t.points, t.channels, [&](int point, int channel) {
+            const Square turned(rows + std::ptrdiff_t{point} * t.channels + channel, t.channels);
+            float* to = out + std::ptrdiff_t{channel} * t.points + point;
+            for (const Floats& v : turned.rows) {
+                put(v, to, 0);
+                to += t.points;
+            }
+        });
+        if (covered) continue;
         for (int c = 0; c < t.channels; ++c, out += t.points)
             for (int point = 0; point < t.points; ++point)
                 out[point] = rows[std::ptrdiff_t{point} * t.channels + c];
+    }
 }
 
 void small_block_of(const Small& s, int row, int first) {

@@ -9,6 +9,8 @@
 #include "nn/calibration.h"
 #include "nn/load.h"
 #include "nn/onednn/executor.h"
+#include "nn/onednn/kernels.h"
+#include "nn/onednn/library.h"
 #include "random_positions.h"
 #include "shared.h"
 
@@ -44,6 +46,43 @@ TowerDescription tower(int board, Attention attention) {
     about.globals = 4;
     about.wdl = about.ownership = about.score = about.moves_left = true;
     return about;
+}
+
+// Those that this processor can run.
+std::vector<const onednn::Kernels*> runnable_kernels() {
+    std::vector<const onednn::Kernels*> all{&onednn::baseline_kernels()};
+    if (onednn::has_avx2()) all.push_back(&onednn::avx2_kernels());
+    if (onednn::has_avx512()) all.push_back(&onednn::avx512_kernels());
+    return all;
+}
+
+TEST(Onednn, PlanesAndRowsChangePlacesInSquaresAndWithoutThem) {
+    constexpr int positions = 2;
+    for (const int points : {9, 16, 64, 81})
+        for (const int channels : {3, 16, 34, 73}) {
+            const auto size = static_cast<std::size_t>(points * channels);
+            std::vector<float> in(positions * size), post(static_cast<std::size_t>(channels));
+            for (std::size_t i = 0; i < in.size(); ++i) in[i] = static_cast<float>(i % 251) - 125;
+            for (std::size_t i = 0; i < post.size(); ++i) post[i] = i % 2 == 0 ? 1.0f : 0.5f;
+            for (const auto* kernels : runnable_kernels()) {
+                std::vector<float> planes(in.size()), rows(in.size());
+                std::vector<std::int8_t> octets(in.size());
+                using onednn::Format;
+                kernels->to_planes(
+                    {in.data(), planes.data(), Format::f32, nullptr, positions, points, channels});
+                kernels->to_rows({planes.data(), rows.data(), Format::f32, post.data(), positions,
+                                  points, channels});
+                kernels->to_rows({planes.data(), octets.data(), Format::s8, nullptr, positions,
+                                  points, channels});
+                for (std::size_t i = 0; i < in.size(); ++i) {
+                    const auto channel = i % post.size(), point = i % size / post.size();
+                    const auto plane = channel * static_cast<std::size_t>(points) + point;
+                    ASSERT_EQ(planes[i / size * size + plane], in[i]);
+                    ASSERT_EQ(rows[i], in[i] * post[channel]);
+                    ASSERT_EQ(octets[i], static_cast<std::int8_t>(in[i]));
+                }
+            }
+        }
 }
 
 TEST(Onednn, TowersInEveryPrecision) {
