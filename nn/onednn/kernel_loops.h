@@ -353,6 +353,10 @@ void to_planes(const Turn& t) {
             }
         });
         if (covered) continue;
+        if (t.points == 1) {
+            for (int c = 0; c < t.channels; ++c) out[c] = rows[c];
+            continue;
+        }
         for (int c = 0; c < t.channels; ++c, out += t.points)
             for (int point = 0; point < t.points; ++point)
                 out[point] = rows[std::ptrdiff_t{point} * t.channels + c];

@@ -58,7 +58,7 @@ std::vector<const onednn::Kernels*> runnable_kernels() {
 
 TEST(Onednn, PlanesAndRowsChangePlacesInSquaresAndWithoutThem) {
     constexpr int positions = 2;
-    for (const int points : {9, 16, 64, 81})
+    for (const int points : {1, 9, 16, 64, 81})
         for (const int channels : {3, 16, 34, 73}) {
             const auto size = static_cast<std::size_t>(points * channels);
             std::vector<float> in(positions * size), post(static_cast<std::size_t>(channels));
