@@ -1,7 +1,10 @@
-// AlphaGo Zero's planes of Go: what they show, one index a move, and the same on a turned board.
+// AlphaGo Zero's planes of Go: what they show, one index a move, and the same on a turned board;
+// of KataGo's, that what is remembered does not change them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <thread>
 #include <vector>
 
 #include "engine/base/random.h"
@@ -106,6 +109,39 @@ TEST(GoEncoding, InjectiveAndTurnsWithTheBoard) {
                 game.play(move);
             }
         }
+}
+
+std::vector<float> katago_inputs_of(const Go& game) {
+    const auto& katago = engine::find_encoding<Go>("katago-v7");
+    const auto shape = katago.shape(game);
+    std::vector<float> planes(shape.planes_size()),
+        globals(static_cast<std::size_t>(shape.globals));
+    katago.write(game, planes, globals);
+    planes.insert(planes.end(), globals.begin(), globals.end());
+    return planes;
+}
+
+// A thread remembers the ladders of boards that it has seen; a new one has seen none.
+TEST(GoEncoding, LaddersRememberedAreThoseOfAThreadThatReadsThemAnew) {
+    engine::Random random(3);
+    bool any = false;
+    for (const int size : {5, 7, 7, 9}) {
+        Go game(size);
+        for (int ply = 0; ply < 90 && game.outcome() == Outcome::ongoing; ++ply) {
+            auto moves = game.legal_moves();
+            moves.filter([&](Move move) { return move != Go::pass && !game.fills_own_eye(move); });
+            game.play(moves.empty() ? Go::pass : moves[random.below(moves.size())]);
+            const auto remembered = katago_inputs_of(game);
+            std::vector<float> anew;
+            std::thread([&] { anew = katago_inputs_of(game); }).join();
+            ASSERT_EQ(remembered, anew) << game.to_text();
+            constexpr int in_ladder = 14;
+            const auto points = static_cast<std::ptrdiff_t>(size) * size;
+            const auto plane = remembered.begin() + in_ladder * points;
+            any = any || std::count(plane, plane + points, 1.0f) > 0;
+        }
+    }
+    EXPECT_TRUE(any);
 }
 
 }  // namespace
