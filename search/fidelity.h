@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,17 +38,25 @@ std::vector<Evaluation> answers_to(Evaluator<G>& evaluator, std::span<const G> p
     return answers;
 }
 
-// The least time of several in which it answers all of them.
+// Which of these, one at least, answers all of the positions in the least time of several. They
+// take turns, and small networks many, since a machine that others use is faster now than then.
 template <engine::Game G>
-double seconds_for(Evaluator<G>& evaluator, std::span<const G> positions) {
-    constexpr int repeats = 3;
-    double least = std::numeric_limits<double>::max();
-    for (int i = 0; i < repeats; ++i) {
-        const double start = engine::processor_seconds();
-        answers_to(evaluator, positions);
-        least = std::min(least, engine::processor_seconds() - start);
-    }
-    return least;
+std::size_t fastest_of(std::span<const std::unique_ptr<Evaluator<G>>> evaluators,
+                       std::span<const G> positions) {
+    constexpr int least_rounds = 3, most_rounds = 100;
+    constexpr double least_seconds = 0.2;
+    std::vector<double> least(evaluators.size(), std::numeric_limits<double>::max());
+    double spent = 0;
+    for (int round = 0; round < least_rounds || (round < most_rounds && spent < least_seconds);
+         ++round)
+        for (std::size_t i = 0; i < evaluators.size(); ++i) {
+            const double start = engine::processor_seconds();
+            answers_to(*evaluators[i], positions);
+            const double seconds = engine::processor_seconds() - start;
+            least[i] = std::min(least[i], seconds);
+            spent += seconds;
+        }
+    return static_cast<std::size_t>(std::min_element(least.begin(), least.end()) - least.begin());
 }
 
 }  // namespace search

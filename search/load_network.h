@@ -82,19 +82,20 @@ nn::Precision fastest(const std::shared_ptr<const Network>& reference,
     const auto& encoding = engine::find_encoding<G>(reference->graph().facts.encoding);
     std::vector<G> timed(asked.begin(), asked.end());
     std::erase_if(timed, [&](const G& game) { return encoding.shape(game).height != board; });
-    NetworkEvaluator<G> exact(reference);
-    const auto expected = answers_to<G>(exact, asked);
-    nn::Precision best = nn::Precision::fp32;
-    double least = seconds_for<G>(exact, timed);
+    std::vector<nn::Precision> precisions{nn::Precision::fp32};
+    std::vector<std::unique_ptr<Evaluator<G>>> evaluators;
+    evaluators.push_back(std::make_unique<NetworkEvaluator<G>>(reference));
+    const auto expected = answers_to<G>(*evaluators.front(), asked);
     for (const auto precision : {nn::Precision::bf16, nn::Precision::int8, nn::Precision::int16}) {
         if (nn::served_precision(reference->graph(), precision, board) != precision) continue;
-        NetworkEvaluator<G> evaluator(reference->in(precision, calibration));
-        if (!tolerable(precision, fidelity_of(expected, answers_to<G>(evaluator, asked)))) continue;
-        const double seconds = seconds_for<G>(evaluator, timed);
-        if (seconds < least) best = precision;
-        least = std::min(least, seconds);
+        auto evaluator =
+            std::make_unique<NetworkEvaluator<G>>(reference->in(precision, calibration));
+        if (!tolerable(precision, fidelity_of(expected, answers_to<G>(*evaluator, asked))))
+            continue;
+        precisions.push_back(precision);
+        evaluators.push_back(std::move(evaluator));
     }
-    return best;
+    return precisions[fastest_of<G>(evaluators, timed)];
 }
 
 // What `choice` comes down to for this game. Adds to what is known whatever it has to find out, on
