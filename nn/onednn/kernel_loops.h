@@ -212,34 +212,28 @@ void transform(const Transform& t) {
     if (t.channels % lanes != 0) transform_from(t, t.channels / lanes * lanes);
 }
 
-// Sum and maximum over all points, of the channels at `first`; null: the maximum is not wanted.
-void gather_vector(const Pool& p, const float* in, int first, float* sum, float* most) {
-    Floats total = load(in + first), highest = total;
+// Sum and maximum over all points of the channels at `first`: as many as a Number holds. `most` may
+// be null.
+template <class Number>
+void gather(const Pool& p, const float* in, int first, float* sum, float* most) {
+    Number total, x;
+    __builtin_memcpy(&total, in + first, sizeof total);
+    Number highest = total;
     for (int point = 1; point < p.points; ++point) {
-        const Floats x = load(in + std::ptrdiff_t{point} * p.channels + first);
+        __builtin_memcpy(&x, in + std::ptrdiff_t{point} * p.channels + first, sizeof x);
         total += x;
         highest = x > highest ? x : highest;
     }
-    put(total, sum, first);
-    if (most != nullptr) put(highest, most, first);
-}
-void gather_one(const Pool& p, const float* in, int channel, float* sum, float* most) {
-    float total = in[channel], highest = total;
-    for (int point = 1; point < p.points; ++point) {
-        const float x = in[std::ptrdiff_t{point} * p.channels + channel];
-        total += x;
-        highest = x > highest ? x : highest;
-    }
-    sum[channel] = total;
-    if (most != nullptr) most[channel] = highest;
+    __builtin_memcpy(sum + first, &total, sizeof total);
+    if (most != nullptr) __builtin_memcpy(most + first, &highest, sizeof highest);
 }
 
 void pool_one(const Pool& p, const float* in, float* out) {
     float* third = out + std::ptrdiff_t{2} * p.channels;
     float* most = p.pooling == Pooling::mean_maximum ? third : nullptr;
     int done = 0;
-    for (; done + lanes <= p.channels; done += lanes) gather_vector(p, in, done, out, most);
-    for (; done < p.channels; ++done) gather_one(p, in, done, out, most);
+    for (; done + lanes <= p.channels; done += lanes) gather<Floats>(p, in, done, out, most);
+    for (; done < p.channels; ++done) gather<float>(p, in, done, out, most);
     for (int c = 0; c < p.channels; ++c) out[c] /= static_cast<float>(p.points);
     if (p.pooling == Pooling::mean) return;
     const float d = p.side - 14;

@@ -41,8 +41,7 @@ std::vector<Ladder::Fixed> Ladder::fixed_opponents() const {
     for (const int simulations : {1000, 10'000, 100'000})
         fixed.push_back({fmt::format("UCT {}", simulations),
                          rollout_player(simulations),
-                         {250 * (std::log10(simulations) - 3), 200},
-                         simulations});
+                         {250 * (std::log10(simulations) - 3), 200}});
     const auto program = gnugo();
     if (settings_.game != "go" || settings_.actors.size < 7 || !program) return fixed;
     Fixed player{"GNU Go 10", {}, {400, 400}};
@@ -142,11 +141,13 @@ int Ladder::games_between(std::size_t a, std::size_t b) const {
 double Ladder::seconds_a_game(std::size_t opponent) const {
     const Rung& rung = rungs_[opponent];
     if (rung.timed_games > 0) return rung.timed_seconds / rung.timed_games;
-    if (opponent >= fixed_.size() || fixed_[opponent].simulations == 0) return 0;
+    const auto simulations = [&](std::size_t fixed) {
+        return static_cast<double>(fixed_[fixed].player.visits.value_or(0));
+    };
+    if (opponent >= fixed_.size() || simulations(opponent) == 0) return 0;
     for (std::size_t smaller = opponent; smaller-- > 0;)
         if (rungs_[smaller].timed_games > 0)
-            return seconds_a_game(smaller) * fixed_[opponent].simulations /
-                   fixed_[smaller].simulations;
+            return seconds_a_game(smaller) * simulations(opponent) / simulations(smaller);
     return 0;
 }
 

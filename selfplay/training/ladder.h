@@ -36,7 +36,7 @@ class Ladder {
     // Whether the newest one is so old that it is time for another, or there is none.
     bool wants_snapshot(double seconds) const;
     // Plays a pair of games for every two threads, if there is a network to measure, against an
-    // opponent with whom that is not likely to take more than `most_seconds`.
+    // opponent with whom that is not likely to take more than `most_seconds`, or the least one.
     void measure(const std::stop_token& stop, double most_seconds);
 
     // Fixed opponents first, then networks as they came.
@@ -48,7 +48,6 @@ class Ladder {
         std::string name;
         PlayerSettings player;
         Belief belief;
-        int simulations = 0;  // a move; 0: not ours
     };
     std::vector<Fixed> fixed_opponents() const;
     std::filesystem::path file_of(const std::string& name) const;
