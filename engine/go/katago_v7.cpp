@@ -75,6 +75,7 @@ class KatagoWriter {
     void write_stones() {
         const auto& board = game_.board();
         const auto own = colour_of(game_.to_play());
+        std::array<std::uint8_t, 1024> liberties_of{};  // by the chain's head; 0: not known yet
         board.for_each_point([&](int at) {
             set(on_board, at);
             const auto colour = board.at(at);
@@ -84,8 +85,9 @@ class KatagoWriter {
                 return;
             }
             set(colour == own ? own_stones : enemy_stones, at);
-            if (const int liberties = board.liberties(at, 4); liberties < 4)
-                set(one_liberty + liberties - 1, at);
+            auto& liberties = liberties_of[static_cast<std::size_t>(board.head(at))];
+            if (liberties == 0) liberties = static_cast<std::uint8_t>(board.liberties(at, 4));
+            if (liberties < 4) set(one_liberty + liberties - 1, at);
         });
     }
 
@@ -175,12 +177,10 @@ class KatagoWriter {
     }
 
     void write_area() {
-        const auto own = colour_of(game_.to_play());
         const auto owners = area_owners(game_);
-        game_.board().for_each_point([&](int at) {
-            if (const auto owner = owners[static_cast<std::size_t>(at)]; owner != Colour::empty)
-                set(owner == own ? own_area : enemy_area, at);
-        });
+        const auto own = game_.to_play() == Player::first ? 0u : 1u;
+        owners[own].for_each([&](int x, int y) { set(own_area, x, y); });
+        owners[1 - own].for_each([&](int x, int y) { set(enemy_area, x, y); });
     }
 
     double own_komi() const {

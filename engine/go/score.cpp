@@ -29,20 +29,31 @@ class Heads {
     std::size_t count_ = 0;
 };
 
+// The stones and what is empty.
+struct StoneRows {
+    explicit StoneRows(const Board& board)
+        : black(board, Colour::black), white(board, Colour::white), empty(board, Colour::empty) {}
+    const PointRows& of(Colour colour) const { return colour == Colour::black ? black : white; }
+
+    PointRows black, white, empty;
+};
+
 // The chains of one colour that can never be captured (D. Benson, "Life in the game of Go",
 // 1976), and the regions around them.
 class PassAlive {
    public:
-    PassAlive(const Board& board, Colour colour, bool suicide)
-        : board_(board), colour_(colour), suicide_(suicide) {
-        board_.for_each_point([this](int at) {
-            if (board_.at(at) == colour_) {
-                if (board_.head(at) == at) chains_.push_back(at);
-            } else if (!seen_[index(at)]) {
-                collect(at);
-            }
-        });
-        for (const int chain : chains_) alive_.set(index(chain));
+    PassAlive(const Board& board, const StoneRows& stones, Colour colour, bool suicide)
+        : board_(board), colour_(colour), own_(stones.of(colour)), empty_(stones.empty) {
+        auto rest = empty_ | stones.of(opponent(colour));
+        while (rest.any()) {
+            Region region{rest.one().joined(rest)};
+            rest -= region.points;
+            // Where suicide is allowed, the enemy's stones may turn into empty points.
+            find_vital(region, suicide ? region.points : region.points & empty_);
+            regions_.push_back(std::move(region));
+        }
+        for (const auto& region : regions_)
+            for (const int head : region.vital) alive_.set(index(head));
         // Mostly no chain has two eyes, and nothing else needs to be known.
         drop_chains();
         if (alive_.none()) return;
@@ -51,33 +62,30 @@ class PassAlive {
         }
     }
 
-    // Writes the colour to all points that it owns for certain.
-    void claim(Owners& owners) const {
-        if (alive_.none()) return;
-        board_.for_each_point([&](int at) {
-            if (board_.at(at) == colour_ && alive_[index(board_.head(at))])
-                owners[index(at)] = colour_;
+    // All points that the colour owns for certain.
+    PointRows owned() const {
+        PointRows owned(board_.size());
+        if (alive_.none()) return owned;
+        own_.for_each([&](int x, int y) {
+            if (alive_[index(board_.head(board_.index(x, y)))]) owned.set(x, y);
         });
         for (const auto& region : regions_)
-            if (region.enclosed && (region.deep <= 1 || !region.enemy))
-                for (const int at : points_of(region)) owners[index(at)] = colour_;
+            if (region.enclosed && (region.deep <= 1 || !region.enemy)) owned |= region.points;
+        return owned;
     }
 
    private:
     // Connected points without a stone of the colour.
     struct Region {
-        std::size_t first = 0, end = 0;  // its part of points_
+        PointRows points;
         Heads vital;  // chains around it that have a liberty in every point that must be one
-        std::vector<int> chains;  // heads of all around it
-        int deep = 0;             // points beside no stone of the colour
+        std::vector<int> chains{};  // heads of all around it
+        int deep = 0;               // points beside no stone of the colour
         bool enemy = false;
         bool enclosed = true;  // all chains around it are alive, and there is one
     };
 
     static std::size_t index(int at) { return static_cast<std::size_t>(at); }
-    std::span<const int> points_of(const Region& region) const {
-        return std::span(points_).subspan(region.first, region.end - region.first);
-    }
 
     Heads chains_beside(int at) const {
         Heads heads;
@@ -85,65 +93,38 @@ class PassAlive {
             if (board_.at(beside) == colour_) heads.add(board_.head(beside));
         return heads;
     }
-
-    void collect(int start) {
-        Region region;
-        region.first = points_.size();
-        points_.push_back(start);
-        seen_.set(index(start));
-        for (std::size_t i = region.first; i < points_.size(); ++i)
-            for (const int beside : board_.neighbours(points_[i])) {
-                const auto there = board_.at(beside);
-                if (there == colour_ || there == Colour::edge || seen_[index(beside)]) continue;
-                seen_.set(index(beside));
-                points_.push_back(beside);
-            }
-        region.end = points_.size();
-        find_vital(region);
-        regions_.push_back(std::move(region));
+    PointRows chain(int head) const {
+        PointRows stone(board_.size());
+        stone.set(board_.x(head), board_.y(head));
+        return stone.joined(own_);
     }
 
-    // Where suicide is allowed, the enemy's stones may turn into empty points.
-    bool must_be_liberty(int at) const { return suicide_ || board_.at(at) == Colour::empty; }
-
-    void find_vital(Region& region) const {
-        bool first = true;
-        for (const int at : points_of(region)) {
-            if (!must_be_liberty(at)) continue;
-            const auto heads = chains_beside(at);
-            if (std::exchange(first, false)) {
-                region.vital = heads;
-            } else {
-                for (std::size_t i = region.vital.size(); i-- > 0;)
-                    if (!heads.holds(region.vital[i])) region.vital.remove(i);
-            }
-            if (region.vital.size() == 0) return;
-        }
+    // `must`: the points of the region that must be liberties.
+    void find_vital(Region& region, const PointRows& must) const {
+        if (!must.any() || (must - own_.beside()).any()) return;
+        must.one().for_each(
+            [&](int x, int y) { region.vital = chains_beside(board_.index(x, y)); });
+        for (std::size_t i = region.vital.size(); i-- > 0;)
+            if ((must - chain(region.vital[i]).beside()).any()) region.vital.remove(i);
     }
 
     void describe(Region& region) const {
-        for (const int at : points_of(region)) {
-            const auto heads = chains_beside(at);
-            region.deep += heads.size() == 0;
-            region.enemy = region.enemy || board_.at(at) != Colour::empty;
-            region.chains.insert(region.chains.end(), heads.begin(), heads.end());
-        }
+        region.deep = (region.points - own_.beside()).count();
+        region.enemy = (region.points - empty_).any();
+        (region.points.beside() & own_).for_each([&](int x, int y) {
+            region.chains.push_back(board_.head(board_.index(x, y)));
+        });
         region.enclosed = !region.chains.empty();
     }
 
     // A chain needs two enclosed regions that are vital to it.
     bool drop_chains() {
-        std::array<std::uint16_t, 1024> eyes{};
+        std::bitset<1024> one_eye, two_eyes;
         for (const auto& region : regions_)
             if (region.enclosed)
-                for (const int head : region.vital) ++eyes[index(head)];
-        bool changed = false;
-        for (const int head : chains_)
-            if (alive_[index(head)] && eyes[index(head)] < 2) {
-                alive_.reset(index(head));
-                changed = true;
-            }
-        return changed;
+                for (const int head : region.vital)
+                    (one_eye[index(head)] ? two_eyes : one_eye).set(index(head));
+        return alive_ != std::exchange(alive_, alive_ & two_eyes);
     }
 
     bool drop_regions() {
@@ -160,151 +141,98 @@ class PassAlive {
 
     const Board& board_;
     Colour colour_;
-    bool suicide_;
-    std::bitset<1024> alive_, seen_;
-    std::vector<int> chains_, points_;
+    const PointRows& own_;
+    const PointRows& empty_;
+    std::bitset<1024> alive_;
     std::vector<Region> regions_;
 };
 
-Owners pass_alive_owners(const Go& game) {
-    Owners owners{};
-    for (const auto colour : {Colour::black, Colour::white})
-        PassAlive(game.board(), colour, game.rules().suicide).claim(owners);
-    return owners;
+Owners pass_alive_owners(const Go& game, const StoneRows& stones) {
+    const auto owned = [&](Colour colour) {
+        return PassAlive(game.board(), stones, colour, game.rules().suicide).owned();
+    };
+    return {owned(Colour::black), owned(Colour::white)};
 }
 
-// Connected points that `joins` to the start, in the order they are found.
-template <class Joins>
-std::vector<int> flood(const Board& board, int start, std::bitset<1024>& seen, Joins joins) {
-    std::vector<int> points{start};
-    seen.set(static_cast<std::size_t>(start));
-    for (std::size_t i = 0; i < points.size(); ++i)
-        for (const int beside : board.neighbours(points[i])) {
-            if (seen[static_cast<std::size_t>(beside)] || !joins(beside)) continue;
-            seen.set(static_cast<std::size_t>(beside));
-            points.push_back(beside);
-        }
+bool in_seki(const Board& board, const PointRows& own, const PointRows& component,
+             const PointRows& dame) {
+    if ((component.beside() & dame).any()) return true;
+    bool in_atari = false;
+    (component & own).for_each([&](int x, int y) {
+        in_atari = in_atari || board.liberties(board.index(x, y), 2) < 2;
+    });
+    return in_atari;
+}
+
+// What all that `player` owns is worth, prisoners taken earlier aside.
+int points_of(const Go& game, const StoneRows& stones, const Owners& owners, Player player) {
+    const auto& own = stones.of(colour_of(player));
+    const auto& enemy = stones.of(colour_of(~player));
+    const auto& owned = owners[player == Player::first ? 0 : 1];
+    const auto dame = stones.empty - owners[0] - owners[1];
+    const bool territory = game.rules().scoring == Scoring::territory;
+    const auto tax = game.rules().tax;
+    int points = 0;
+    for (auto rest = owned; rest.any();) {
+        const auto component = rest.one().joined(rest);
+        rest -= component;
+        points += (component & (territory ? enemy : own)).count();
+        if (tax != Tax::none && in_seki(game.board(), own, component, dame)) continue;
+        points += (component - own).count() - (tax == Tax::all ? 2 : 0);
+    }
     return points;
 }
 
-Colour& owner(Owners& owners, int at) { return owners[static_cast<std::size_t>(at)]; }
-Colour owner(const Owners& owners, int at) { return owners[static_cast<std::size_t>(at)]; }
-
-// Whom an empty region belongs to: the only colour it touches, if there is one.
-Colour region_owner(const Board& board, const std::vector<int>& region) {
-    bool black = false, white = false;
-    for (const int at : region)
-        for (const int beside : board.neighbours(at)) {
-            black = black || board.at(beside) == Colour::black;
-            white = white || board.at(beside) == Colour::white;
-        }
-    if (black == white) return Colour::empty;
-    return black ? Colour::black : Colour::white;
-}
-
-// Connected points of one owner.
-struct Component {
-    std::vector<int> points;
-    Colour colour;
-};
-
-std::vector<Component> components(const Board& board, const Owners& owners) {
-    std::vector<Component> all;
-    std::bitset<1024> seen;
-    board.for_each_point([&](int at) {
-        const auto colour = owner(owners, at);
-        if (colour == Colour::empty || seen[static_cast<std::size_t>(at)]) return;
-        all.push_back({flood(board, at, seen,
-                             [&](int point) {
-                                 return board.at(point) != Colour::edge &&
-                                        owner(owners, point) == colour;
-                             }),
-                       colour});
-    });
-    return all;
-}
-
-bool in_seki(const Board& board, const Owners& owners, const Component& component) {
-    const auto is_dame = [&](int at) {
-        return board.at(at) == Colour::empty && owner(owners, at) == Colour::empty;
-    };
-    return std::any_of(component.points.begin(), component.points.end(), [&](int at) {
-        if (board.at(at) == component.colour && board.liberties(at, 2) < 2) return true;
-        const auto beside = board.neighbours(at);
-        return std::any_of(beside.begin(), beside.end(), is_dame);
-    });
-}
-
-// What a component is worth to its owner, prisoners taken earlier aside.
-int points_of(const Go& game, const Owners& owners, const Component& component) {
-    const auto& board = game.board();
-    const auto count = [&](Colour colour) {
-        return static_cast<int>(std::count_if(component.points.begin(), component.points.end(),
-                                              [&](int at) { return board.at(at) == colour; }));
-    };
-    const bool territory = game.rules().scoring == Scoring::territory;
-    const auto tax = game.rules().tax;
-    const int own = count(component.colour);
-    const int prisoners = count(opponent(component.colour));
-    const int stones = territory ? prisoners : own;
-    if (tax != Tax::none && in_seki(board, owners, component)) return stones;
-    const int inside = static_cast<int>(component.points.size()) - own;
-    return stones + inside - (tax == Tax::all ? 2 : 0);
-}
-
-int board_lead(const Go& game, const Owners& owners) {
-    int lead = 0;
-    for (const auto& component : components(game.board(), owners)) {
-        const int points = points_of(game, owners, component);
-        lead += component.colour == Colour::black ? points : -points;
-    }
-    if (game.rules().scoring == Scoring::territory)
-        lead += game.captured_by(Player::first) - game.captured_by(Player::second);
-    return lead;
+int board_lead(const Go& game, const StoneRows& stones, const Owners& owners) {
+    const int lead = points_of(game, stones, owners, Player::first) -
+                     points_of(game, stones, owners, Player::second);
+    if (game.rules().scoring == Scoring::area) return lead;
+    return lead + game.captured_by(Player::first) - game.captured_by(Player::second);
 }
 
 std::vector<std::optional<Player>> in_order(const Board& board, const Owners& owners) {
-    std::vector<std::optional<Player>> result;
-    board.for_each_point([&](int at) {
-        const auto colour = owner(owners, at);
-        result.push_back(colour == Colour::empty ? std::nullopt : std::optional(player_of(colour)));
-    });
+    std::vector<std::optional<Player>> result(
+        static_cast<std::size_t>(board.size() * board.size()));
+    for (const auto player : {Player::first, Player::second})
+        owners[player == Player::first ? 0 : 1].for_each(
+            [&](int x, int y) { result[board.order(board.index(x, y))] = player; });
     return result;
+}
+
+Owners area_owners(const Go& game, const StoneRows& stones) {
+    Owners owners = pass_alive_owners(game, stones);
+    const auto certain = owners[0] | owners[1];
+    for (const auto colour : {Colour::black, Colour::white})
+        owners[colour == Colour::black ? 0 : 1] |= stones.of(colour) - certain;
+    for (auto rest = stones.empty; rest.any();) {
+        const auto region = rest.one().joined(rest);
+        rest -= region;
+        const auto beside = region.beside();
+        const bool black = (beside & stones.of(Colour::black)).any();
+        const bool white = (beside & stones.of(Colour::white)).any();
+        // The only colour that it touches, if there is one.
+        if (black != white) owners[black ? 0 : 1] |= region - certain;
+    }
+    return owners;
 }
 
 }  // namespace
 
-Owners area_owners(const Go& game) {
-    const auto& board = game.board();
-    Owners owners = pass_alive_owners(game);
-    std::bitset<1024> seen;
-    board.for_each_point([&](int at) {
-        if (board.at(at) != Colour::empty) {
-            if (owner(owners, at) == Colour::empty) owner(owners, at) = board.at(at);
-            return;
-        }
-        if (seen[static_cast<std::size_t>(at)]) return;
-        const auto region =
-            flood(board, at, seen, [&](int point) { return board.at(point) == Colour::empty; });
-        const auto colour = region_owner(board, region);
-        for (const int point : region)
-            if (owner(owners, point) == Colour::empty) owner(owners, point) = colour;
-    });
-    return owners;
-}
+Owners area_owners(const Go& game) { return area_owners(game, StoneRows(game.board())); }
 
 std::vector<std::optional<Player>> pass_alive(const Go& game) {
-    return in_order(game.board(), pass_alive_owners(game));
+    return in_order(game.board(), pass_alive_owners(game, StoneRows(game.board())));
 }
 
 Score score(const Go& game, std::span<const Point> dead) {
     Go cleared = game;
     for (const Point point : dead) cleared.take_dead(point);
-    const auto owners = area_owners(cleared);
+    const StoneRows stones(cleared.board());
+    const auto owners = area_owners(cleared, stones);
     Score result;
     result.owners = in_order(cleared.board(), owners);
     result.lead_halves =
-        2 * (board_lead(cleared, owners) - game.white_bonus()) - game.komi().halves();
+        2 * (board_lead(cleared, stones, owners) - game.white_bonus()) - game.komi().halves();
     return result;
 }
 

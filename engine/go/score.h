@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/go/go.h"
+#include "engine/go/point_rows.h"
 
 namespace go {
 
@@ -15,8 +16,8 @@ namespace go {
 // regions they own: per point (y * size + x) the colour, else empty.
 std::vector<std::optional<Player>> pass_alive(const Go& game);
 
-// Who owns each point of the board as it stands, by the board's indices.
-using Owners = std::array<Colour, 1024>;
+// The points that each player owns, Black's first, on the board as it stands.
+using Owners = std::array<PointRows, 2>;
 Owners area_owners(const Go& game);
 
 struct Score {

@@ -22,6 +22,11 @@ nn::training::Schedule schedule(const LearnSettings& settings) {
     return schedule;
 }
 
+nn::Precision precision_of(Numbers numbers) {
+    if (numbers == Numbers::fastest) return nn::training::faster_precision();
+    return numbers == Numbers::bf16 ? nn::Precision::bf16 : nn::Precision::fp32;
+}
+
 float weight_of(const LearnSettings& settings, const nn::training::Term& term) {
     using nn::training::Loss;
     if (term.loss == Loss::distribution || term.loss == Loss::square) return settings.value_weight;
@@ -43,7 +48,7 @@ nn::training::LearnerSettings learner_settings(const LearnSettings& settings,
         learner.optimiser.decay = nn::training::Decay::decoupled;
     learner.terms = nn::training::usual_terms(graph);
     for (auto& term : learner.terms) term.weight = weight_of(settings, term);
-    learner.precision = settings.precision;
+    learner.precision = precision_of(settings.numbers);
     learner.threads = threads;
     learner.micro_batch = settings.micro_batch;
     learner.average = settings.average;

@@ -13,7 +13,9 @@
 namespace selfplay::training {
 
 inline constexpr std::array<std::string_view, 2> method_names = {"sgd", "adamw"};
-inline constexpr std::array<std::string_view, 2> number_names = {"fp32", "bf16"};
+// What the convolutions compute in; fastest is fp32 or bf16, as the processor has it.
+enum class Numbers : std::uint8_t { fp32, bf16, fastest };
+inline constexpr std::array<std::string_view, 3> number_names = {"fp32", "bf16", "auto"};
 
 struct LearnSettings {
     int batch = 256, micro_batch = 64;
@@ -27,7 +29,7 @@ struct LearnSettings {
     float most_norm = 0;
     float average = 0.99f;
     float ownership_weight = 0.15f, score_weight = 0.0015f, value_weight = 1;
-    nn::Precision precision = nn::Precision::bf16;
+    Numbers numbers = Numbers::fastest;
 
     static constexpr auto options() {
         using engine::Choice;
@@ -55,8 +57,8 @@ struct LearnSettings {
             Option<P, float>{"value-weight", &P::value_weight, 0, 100, "in the loss"},
             Option<P, float>{"ownership-weight", &P::ownership_weight, 0, 100, "in the loss"},
             Option<P, float>{"score-weight", &P::score_weight, 0, 100, "in the loss"},
-            Choice<P, nn::Precision>{"learn-precision", &P::precision, number_names,
-                                     "of the convolutions while learning"},
+            Choice<P, Numbers>{"learn-precision", &P::numbers, number_names,
+                               "of the convolutions while learning; auto: the faster"},
         };
     }
 };

@@ -2,8 +2,12 @@
 // reference, on the same graphs.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "case.h"
+#include "engine/base/measure.h"
 #include "nn/builders.h"
+#include "nn/peak.h"
 #include "problem.h"
 
 namespace nn::training {
@@ -111,6 +115,21 @@ TEST(FastTrainer, GradientsOfSeveralBatchesAreSummed) {
     trainer->collect(twice);
     for (auto& x : twice) x /= 2;
     EXPECT_LT(distance(twice, once), 1e-6);
+}
+
+TEST(FastTrainer, TheFasterPrecisionIsNeverTheOneFarBehind) {
+    const auto faster = faster_precision();
+    EXPECT_EQ(faster_precision(), faster);
+    std::map<Precision, double> peaks;
+    for (int turn = 0; turn < 10; ++turn)
+        for (const auto precision : {Precision::bf16, Precision::fp32}) {
+            double operations = 0;
+            const double calls = engine::calls_per_second(
+                0.01, [&] { operations = run_multiply_adds(precision, 10000); }, 1);
+            peaks[precision] = std::max(peaks[precision], calls * operations);
+        }
+    const auto other = faster == Precision::fp32 ? Precision::bf16 : Precision::fp32;
+    EXPECT_LT(peaks[other], 1.5 * peaks[faster]);
 }
 
 TEST(FastTrainer, LearnsABatchByHeartInBothPrecisions) {

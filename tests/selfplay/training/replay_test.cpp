@@ -154,7 +154,7 @@ TYPED_TEST(LearningOf, OneBatchIsLearnedByHeart) {
     NetworkSettings network{.blocks = 1, .channels = 16};
     const auto graph = new_network(network, TypeParam::name, shape, random);
     LearnSettings learn{.batch = 32, .warm_up = 0};
-    learn.precision = nn::Precision::fp32;
+    learn.numbers = Numbers::fp32;
     nn::training::Learner learner(graph, learner_settings(learn, graph, 1));
     const auto& samples = replay.draw(32, learner.terms(), random);
     QualityTally before, after;

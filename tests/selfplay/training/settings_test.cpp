@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/files.h"
+#include "engine/go/go.h"
 #include "tests/temporary_folder.h"
 
 namespace selfplay::training {
@@ -98,6 +99,19 @@ TEST(TrainSettings, ATaughtNetworkNeedsNoRollouts) {
     EXPECT_EQ(settings_for({}, wanted).run.rollout_games, 0);
     wanted.changes = {{"rollout-games", "50"}};
     EXPECT_EQ(settings_for({}, wanted).run.rollout_games, 50);
+}
+
+TEST(TrainSettings, LearningComputesInTheFasterNumbersUnlessToldOtherwise) {
+    const auto graph = new_network(NetworkSettings{.blocks = 1, .channels = 16}, go::Go(5), 1);
+    const auto precision = [&](std::string_view name) {
+        Settings settings;
+        if (!name.empty()) set_setting(settings, "learn-precision", name);
+        return learner_settings(settings.learn, graph, 1).precision;
+    };
+    EXPECT_EQ(precision("fp32"), nn::Precision::fp32);
+    EXPECT_EQ(precision("bf16"), nn::Precision::bf16);
+    EXPECT_EQ(precision("auto"), nn::training::faster_precision());
+    EXPECT_EQ(precision(""), precision("auto"));
 }
 
 }  // namespace

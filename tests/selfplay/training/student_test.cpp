@@ -26,7 +26,7 @@ struct StudentTest : testing::Test {
     std::vector<std::string> said;
 
     StudentTest() {
-        settings.precision = nn::Precision::fp32;
+        settings.numbers = Numbers::fp32;
         for (std::uint64_t i = 0; i < 4; ++i) replay.add(random_record(go::Go(5), i, 12), i);
     }
     Student make() {
