@@ -38,9 +38,9 @@ class PointRows {
         for (std::size_t y = 0; y < size_; ++y) rows_[y] &= ~other.rows_[y];
         return *this;
     }
-    friend PointRows operator|(PointRows a, const PointRows& b) { return a |= b; }
-    friend PointRows operator&(PointRows a, const PointRows& b) { return a &= b; }
-    friend PointRows operator-(PointRows a, const PointRows& b) { return a -= b; }
+    PointRows operator|(const PointRows& other) const { return PointRows(*this) |= other; }
+    PointRows operator&(const PointRows& other) const { return PointRows(*this) &= other; }
+    PointRows operator-(const PointRows& other) const { return PointRows(*this) -= other; }
 
     bool any() const {
         Row all = 0;
