@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "engine/base/measure.h"
+
 #if defined(__x86_64__) && defined(__linux__)
 #include <cpuid.h>
 #include <sys/syscall.h>
@@ -152,6 +154,14 @@ double run_multiply_adds([[maybe_unused]] Precision precision,
     if (rounds > 0) return static_cast<double>(rounds) * chains * run(unit_for(precision), rounds);
 #endif
     return 0;
+}
+
+double peak_rate(Precision precision, double seconds) {
+    constexpr std::int64_t rounds = 10000;
+    double operations = 0;
+    const double calls = engine::calls_per_second(
+        seconds, [&] { operations = run_multiply_adds(precision, rounds); }, 1);
+    return calls * operations;
 }
 
 }  // namespace nn

@@ -13,4 +13,7 @@ namespace nn {
 // instruction here.
 double run_multiply_adds(Precision precision, std::int64_t rounds);
 
+// Operations a second of these, over about so many seconds of the calling thread's time.
+double peak_rate(Precision precision, double seconds);
+
 }  // namespace nn

@@ -24,7 +24,6 @@ class PointRows {
     }
 
     void set(int x, int y) { rows_[static_cast<std::size_t>(y)] |= Row{1} << x; }
-    bool operator==(const PointRows& other) const = default;
 
     PointRows& operator|=(const PointRows& other) {
         for (std::size_t y = 0; y < size_; ++y) rows_[y] |= other.rows_[y];

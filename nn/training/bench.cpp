@@ -87,9 +87,7 @@ Speed speed_of(const TowerDescription& about, Precision precision, double second
     const auto graph = build_tower(about, random);
     Learner learner(graph, settings);
     learner.step(samples);  // makes what the batch size needs
-    const double peak = engine::calls_per_second(
-        seconds / 4, [&] { run_multiply_adds(precision, 100000); }, 1);
-    const double peak_operations = peak * run_multiply_adds(precision, 100000);
+    const double peak = peak_rate(precision, seconds / 4);
     double used = engine::process_seconds();
     int steps = 0;
     const double rate = batch * engine::calls_per_second(
@@ -101,7 +99,7 @@ Speed speed_of(const TowerDescription& about, Precision precision, double second
                                     1, engine::wall_seconds);
     used = engine::process_seconds() - used;
     const double done = operations(graph, about.facts.board) * batch * steps;
-    return {rate, peak_operations > 0 ? 100 * done / used / peak_operations : 0};
+    return {rate, peak > 0 ? 100 * done / used / peak : 0};
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/measure.h"
 #include "nn/peak.h"
 #include "nn/training/trainer.h"
 
@@ -18,11 +17,8 @@ Precision measured() {
     std::array<double, 2> best{};
     for (int turn = 0; turn < 5; ++turn)
         for (const auto precision : {Precision::fp32, Precision::bf16}) {
-            double operations = 0;
-            const double calls = engine::calls_per_second(
-                0.01, [&] { operations = run_multiply_adds(precision, 10000); }, 1);
             auto& most = best[precision == Precision::bf16 ? 1 : 0];
-            most = std::max(most, calls * operations);
+            most = std::max(most, peak_rate(precision, 0.01));
         }
     return best[1] > best[0] ? Precision::bf16 : Precision::fp32;
 }

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "case.h"
-#include "engine/base/measure.h"
 #include "nn/builders.h"
 #include "nn/peak.h"
 #include "problem.h"
@@ -122,12 +121,8 @@ TEST(FastTrainer, TheFasterPrecisionIsNeverTheOneFarBehind) {
     EXPECT_EQ(faster_precision(), faster);
     std::map<Precision, double> peaks;
     for (int turn = 0; turn < 10; ++turn)
-        for (const auto precision : {Precision::bf16, Precision::fp32}) {
-            double operations = 0;
-            const double calls = engine::calls_per_second(
-                0.01, [&] { operations = run_multiply_adds(precision, 10000); }, 1);
-            peaks[precision] = std::max(peaks[precision], calls * operations);
-        }
+        for (const auto precision : {Precision::bf16, Precision::fp32})
+            peaks[precision] = std::max(peaks[precision], peak_rate(precision, 0.01));
     const auto other = faster == Precision::fp32 ? Precision::bf16 : Precision::fp32;
     EXPECT_LT(peaks[other], 1.5 * peaks[faster]);
 }
