@@ -16,7 +16,7 @@ namespace {
 
 using engine::fail;
 
-constexpr int lc0_planes = 112, moves = 1858, squares = 64;
+constexpr int lc0_planes = 112, lc0_moves = 1858, squares = 64;
 constexpr float lc0_epsilon = 1e-5f;
 
 enum : int { classical_policy = 1, convolutional_policy = 2 };
@@ -220,8 +220,8 @@ void Lc0Importer::read_policy() {
         y = active("policy", convolution("policy", weights_.policy(), y, 1));
         y = dense("policy.moves", weights_.policy_weight(), weights_.policy_bias(),
                   flat("policy", y), channels_ * squares);
-        if (const int found = count_of(weights_.policy_bias(), "policy.moves"); found != moves)
-            fail("expected {} moves, found {}", moves, found);
+        if (const int found = count_of(weights_.policy_bias(), "policy.moves"); found != lc0_moves)
+            fail("expected {} moves, found {}", lc0_moves, found);
     }
     name_output(graph_, "policy", y);
     channels_ = body_channels;

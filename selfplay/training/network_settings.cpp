@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "nn/builders.h"
+#include "nn/growth.h"
 #include "nn/load.h"
 
 namespace selfplay::training {
@@ -60,10 +61,10 @@ nn::Graph network_like(const nn::Graph& fresh, const std::filesystem::path& file
                       graph.outputs == fresh.outputs &&
                       std::equal(graph.nodes.begin(), graph.nodes.end(), fresh.nodes.begin(),
                                  fresh.nodes.end(), same_shapes);
-    if (!same)
-        engine::fail("{}: built otherwise than the settings say: {} and not {}", file.string(),
-                     description(graph), description(fresh));
-    return graph;
+    if (same) return graph;
+    if (auto larger = nn::grown(graph, fresh)) return *std::move(larger);
+    engine::fail("{}: built otherwise than the settings say: {} and not {}", file.string(),
+                 description(graph), description(fresh));
 }
 
 }  // namespace selfplay::training

@@ -75,7 +75,8 @@ nn::Graph new_network(const NetworkSettings& settings, const G& start, std::uint
 }
 
 // The network of a file, to learn on from where it stands. `fresh` is what the run would begin with
-// otherwise. Fails with engine::Error when the file's is not built as that.
+// otherwise; a file's that has fewer blocks or channels grows to its size (nn/growth.h). Fails with
+// engine::Error when the file's is not built as that.
 nn::Graph network_like(const nn::Graph& fresh, const std::filesystem::path& file);
 
 }  // namespace selfplay::training

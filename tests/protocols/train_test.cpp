@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -132,6 +133,19 @@ TEST_F(TrainTest, ANewRunLearnsOnFromAFile) {
     fs::remove_all(folder);
     ASSERT_EQ(run(with({"--games", "40", "--from", file.string()})), 0) << told();
     EXPECT_GT(nn::load(folder / "latest.safetensors").facts.steps, steps);
+    // As a larger network, too; not as a smaller one.
+    const auto carried = nn::load(file).facts;
+    const auto as = [&](int channels) {
+        fs::remove_all(folder);
+        auto words = with({"--games", "4", "--from", file.string()});
+        *(std::ranges::find(words, "--channels") + 1) = std::to_string(channels);
+        return run(words);
+    };
+    EXPECT_NE(as(carried.channels - 1), 0);
+    ASSERT_EQ(as(carried.channels + 4), 0) << told();
+    const auto larger = nn::load(folder / "latest.safetensors").facts;
+    EXPECT_EQ(larger.channels, carried.channels + 4);
+    EXPECT_GE(larger.steps, carried.steps);
 }
 
 TEST_F(TrainTest, AStopEndsItCleanly) {
