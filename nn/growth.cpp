@@ -32,7 +32,7 @@ class Growth {
         for (std::size_t i = 0; i < large_.nodes.size(); ++i)
             if (!twins_[i])
                 pass_through(i);
-            else if (place(i) && places_[i].size() == at(channels_of(*twins_[i])))
+            else if (reads_alike(i) && place(i) && places_[i].size() == at(channels_of(*twins_[i])))
                 fill(i);
             else
                 return false;
@@ -42,6 +42,26 @@ class Growth {
    private:
     Node& large(int node) { return large_.nodes[at(node)]; }
 
+    static bool same_kind(const Node& one, const Node& other) {
+        const auto same_kernel = [](const Tensor& a, const Tensor& b) {
+            return a.shape.size() == b.shape.size() &&
+                   (a.shape.size() <= 2 ||
+                    std::equal(a.shape.begin() + 2, a.shape.end(), b.shape.begin() + 2));
+        };
+        return one.operation == other.operation && one.activation == other.activation &&
+               one.pooling == other.pooling && one.inputs.size() == other.inputs.size() &&
+               std::ranges::equal(one.weights, other.weights, same_kernel);
+    }
+
+    // Whether a node reads what its twin does, or a new block behind it.
+    bool reads_alike(std::size_t i) const {
+        return std::ranges::equal(large_.nodes[i].inputs, twins_[i]->inputs,
+                                  [&](int in_large, int in_small) {
+                                      const auto* twin = twins_[at(in_large)];
+                                      return !twin || twin == &small_.nodes[at(in_small)];
+                                  });
+    }
+
     // A node's twin is that of its name.
     bool find_twins() {
         std::map<std::string_view, std::size_t> named;
@@ -50,9 +70,7 @@ class Growth {
             const auto found = named.find(node.name);
             if (found == named.end()) return false;
             const auto& other = large_.nodes[found->second];
-            if (node.operation != other.operation || node.activation != other.activation ||
-                node.pooling != other.pooling || node.inputs.size() != other.inputs.size())
-                return false;
+            if (!same_kind(node, other)) return false;
             twins_[found->second] = &node;
         }
         return std::ranges::equal(small_.outputs, large_.outputs, {}, &Output::name, &Output::name);

@@ -105,6 +105,14 @@ TEST(Growth, OnlyIntoTheSameDesignWithMore) {
     EXPECT_FALSE(fits([](auto& other) { other.planes = 6; }));
     EXPECT_FALSE(fits([](auto& other) { other.moves_left = true; }));
     EXPECT_FALSE(fits([](auto& other) { other.facts.encoding = "another"; }));
+    // Nor from what bears the same names and is built otherwise.
+    auto pointwise = small;
+    auto& kernel = std::ranges::find(pointwise.nodes, "block0.second", &Node::name)->weights[0];
+    kernel = {{8, 8, 1, 1}, std::vector<float>(64)};
+    EXPECT_FALSE(grown(pointwise, fresh(about)));
+    auto rewired = small;
+    std::ranges::find(rewired.nodes, "value", &Node::name)->inputs[0] = 2;
+    EXPECT_FALSE(grown(rewired, fresh(about)));
 }
 
 }  // namespace
