@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 #include <string_view>
-#include <utility>
 
 #include "nn/index.h"
 
@@ -81,7 +80,7 @@ class Growth {
     }
 
     static Places first(int count) {
-        Places places(static_cast<std::size_t>(count));
+        Places places(at(count));
         std::iota(places.begin(), places.end(), 0);
         return places;
     }
@@ -106,13 +105,12 @@ class Growth {
         const auto& node = large_.nodes[i];
         const int count = channels_of(*twins_[i]), room = large_shapes_[i].channels;
         if (count > room) return false;
-        const auto& input = node.inputs.empty() ? Places{} : places_[at(node.inputs[0])];
-        const auto input_room =
-            node.inputs.empty() ? 0 : large_shapes_[at(node.inputs[0])].channels;
+        if (node.operation == Operation::input) {
+            places_[i] = first(count);
+            return count == room;
+        }
+        const auto& input = places_[at(node.inputs[0])];
         switch (node.operation) {
-            case Operation::input:
-                places_[i] = first(count);
-                return count == room;
             case Operation::convolution:
             case Operation::dense:
                 places_[i] =
@@ -126,9 +124,11 @@ class Growth {
             case Operation::squeeze_scale:
                 places_[i] = input;
                 return true;
-            case Operation::pool:
+            case Operation::pool: {
+                const int input_room = large_shapes_[at(node.inputs[0])].channels;
                 places_[i] = repeated(input, room / input_room, input_room);
                 return true;
+            }
             case Operation::flatten:
                 for (const int channel : input)
                     for (int point = 0; point < board_ * board_; ++point)
@@ -142,6 +142,7 @@ class Growth {
                 }
                 return true;
             }
+            case Operation::input:  // above
             case Operation::gather:
             case Operation::point_bias:
                 return false;

@@ -83,8 +83,7 @@ TEST(Growth, WhatIsNewLearns) {
         EXPECT_NE(node.weights[scale], large->nodes[i].weights[scale]) << node.name;
     }
     // From new channels to old ones, where growth left zeros.
-    const auto& kernel = after.nodes[static_cast<std::size_t>(
-        std::ranges::find(after.nodes, "block0.first", &Node::name) - after.nodes.begin())];
+    const auto& kernel = *std::ranges::find(after.nodes, "block0.first", &Node::name);
     const auto first_new = kernel.weights[0].values.begin() + 8 * 9;
     EXPECT_TRUE(std::any_of(first_new, first_new + 4 * 9, [](float w) { return w != 0; }));
 }
