@@ -69,6 +69,8 @@ class LeelaZeroImporter {
         if (lines_.size() < heads || (lines_.size() - heads) % per_block != 0)
             fail("expected {} lines and {} for each block, found {}", heads, per_block,
                  lines_.size());
+        if (lines_[0].size() != 1)
+            fail("line 1: expected the version, found {} numbers", lines_[0].size());
         const auto channels = lines_[2].size();
         if (channels == 0 || channels > most_leela_channels)
             fail("expected 1 to {} channels, found {}", most_leela_channels, channels);

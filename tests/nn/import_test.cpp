@@ -533,6 +533,8 @@ TEST(LeelaZero, RefusesCutsAndOtherShapes) {
     changed = text;
     changed.replace(changed.find('\n', 2) + 1, 3, "inf");
     EXPECT_EQ(message_of(changed), "line 3: expected a number, found something else");
+    for (const auto* line : {"", "1 2"})
+        EXPECT_THROW(graph_from_leela_zero(line + text.substr(1)), engine::Error) << line;
 }
 
 // The winrate that Leela Zero gives after B Q16, W D4 on 19x19.
