@@ -9,6 +9,9 @@ namespace search {
 // The name under which load_player finds the one that suits game and board.
 inline constexpr std::string_view embedded_name = "default";
 
+// The network for Go on boards from 10x10 on; "go" plays the smaller ones.
+inline constexpr std::string_view embedded_large_go = "go-13x13";
+
 // AlphaGo's networks for boards of 19x19: a folder of the weights.
 inline constexpr std::string_view embedded_alphago = "alphago-19x19";
 

@@ -48,13 +48,15 @@ TEST(EmbeddedWeights, TheChoiceGoesByBoardAndMethod) {
     EXPECT_EQ(choice(5, Method::automatic), "");
     EXPECT_EQ(choice(5, Method::puct), "go");
     EXPECT_EQ(choice(9, Method::automatic), "go");
-    EXPECT_EQ(choice(19, Method::puct), "go");
+    const auto large = embedded_weights(embedded_large_go).empty() ? "go" : embedded_large_go;
+    EXPECT_EQ(choice(10, Method::automatic), large);
+    EXPECT_EQ(choice(19, Method::puct), large);
     EXPECT_EQ(embedded_choice(chess::Chess(), Method::automatic), "chess");
     if (embedded_weights("alphago-19x19/policy").empty())
         GTEST_SKIP() << "built without AlphaGo's networks";
     EXPECT_EQ(choice(19, Method::automatic), embedded_alphago);
     EXPECT_EQ(choice(19, Method::alphago), embedded_alphago);
-    EXPECT_EQ(choice(18, Method::automatic), "go");
+    EXPECT_EQ(choice(18, Method::automatic), large);
 }
 
 TEST(EmbeddedWeights, AlphaGosNetworksPlayLargeBoards) {
