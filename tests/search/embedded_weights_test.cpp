@@ -59,6 +59,18 @@ TEST(EmbeddedWeights, TheChoiceGoesByBoardAndMethod) {
     EXPECT_EQ(choice(18, Method::automatic), large);
 }
 
+TEST(EmbeddedWeights, BoardsFrom10x10OnHaveANetwork) {
+    const auto embedded = embedded_weights(embedded_large_go);
+    if (embedded.empty()) GTEST_SKIP() << "built without a network for large boards";
+    const auto file =
+        std::filesystem::path(SANBAN_WEIGHTS) / fmt::format("{}.safetensors", embedded_large_go);
+    EXPECT_TRUE(embedded == engine::read_file(file));
+    for (const int size : {10, 18})
+        EXPECT_NE(load_player(std::string(embedded_name), nn::Precision::fp32, go::Go(size)),
+                  nullptr)
+            << size;
+}
+
 TEST(EmbeddedWeights, AlphaGosNetworksPlayLargeBoards) {
     if (embedded_weights("alphago-19x19/policy").empty())
         GTEST_SKIP() << "built without AlphaGo's networks";
