@@ -77,6 +77,9 @@ class Evaluator {
     virtual void warm_up(const G&, int /*most*/) {}
 };
 
+// Positions that a worker of the search asks about at once, at most.
+inline constexpr int most_batch = 8;
+
 template <engine::Game G>
 class EvaluatorSource {
    public:
@@ -96,6 +99,9 @@ class EvaluatorSource {
     virtual std::string_view name() const = 0;
     // Of its priors, as search makes the best of them.
     virtual float policy_temperature() const { return 1; }
+    // Of such games, as many as are best asked about at once: an answer for each then comes
+    // soonest, and none of them late.
+    virtual int batch(const G&) const { return 1; }
     // Whether its answers have a value; else positions have to be played out.
     virtual bool has_value() const { return true; }
     // Whether it is a set that AlphaGo's search is made for, rollouts and networks blended.

@@ -214,6 +214,16 @@ class NetworkSource final : public EvaluatorSource<G> {
         const auto& facts = network_->graph().facts;
         return facts.game != "go" && facts.source.starts_with("sanban ") ? 1.5f : 1.0f;
     }
+    // Small boards leave the kernels half empty when they come alone; beyond so many points nothing
+    // is gained, and so many operations keep a search that is told to stop for 10 ms or more.
+    int batch(const G& game) const override {
+        constexpr double most_points = 640, most_operations = 4e9;
+        const auto shape = encoding_->shape(game);
+        const auto operations = flop_count(network_->graph(), shape.height);
+        const double most = std::min(most_points / static_cast<double>(shape.points()),
+                                     most_operations / static_cast<double>(operations));
+        return static_cast<int>(std::clamp<double>(most, 1, most_batch));
+    }
 
     void check(const G& game) const override {
         const auto& facts = network_->graph().facts;

@@ -47,7 +47,7 @@ struct SearchParams {
     bool solver = true;         // proven wins and losses are backed up
     bool lower_bound = true;    // the final move is the best even if values disappoint (networks)
     int level = full_level;     // of strength
-    int batch = 1;              // leaves that a worker asks the network about at once
+    int batch = 0;  // leaves that a worker asks the network about at once; 0: what suits
     bool root_symmetries = false;
     int expand_after = 1;   // visits at which a leaf gets children
     int lag_ms = 20;        // least reserve on the clock; what is measured comes on top
@@ -129,7 +129,9 @@ struct SearchParams {
                     "choose the move by the lower confidence bound of its value (puct)"},
             Option<P, int>{"level", &P::level, 0, full_level,
                            "of strength, by visits and temperature; 20: full"},
-            Option<P, int>{"batch", &P::batch, 1, 8, "positions a worker evaluates at once"},
+            Option<P, int>{"batch", &P::batch, 0, most_batch,
+                           "positions a worker evaluates at once, at most, in a tree large enough; "
+                           "0: what suits network and board"},
             Flag<P>{"root-symmetries", &P::root_symmetries,
                     "average the network over all symmetries at the root"},
             Option<P, int>{"expand-after", &P::expand_after, 1, 1000,

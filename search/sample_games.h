@@ -56,7 +56,7 @@ std::vector<G> sample_starts([[maybe_unused]] int board, [[maybe_unused]] const 
                   }) {
         if (board != 0) return {G(board)};
         std::vector<G> starts{G(9), G(19)};
-        if (const int own = game.size(); own != 9 && own != 19) starts.push_back(G(own));
+        if (const int own = game.size(); own != 9 && own != 19) starts.emplace_back(own);
         return starts;
     } else {
         return {G()};

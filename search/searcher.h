@@ -111,6 +111,11 @@ class Searcher {
         return params_.level < full_level && plays(limits);
     }
     std::unique_ptr<LeafEvaluator<G>> make_leaf_evaluator(std::uint64_t seed) const;
+    // Leaves that a worker asks the network about at once.
+    int batch() const {
+        if (!uses_network() || uses_alphago()) return 1;
+        return params_.batch > 0 ? params_.batch : network_->batch(position());
+    }
     void hire();
     void reset_tallies();
     void begin(const Limits& limits);
@@ -211,7 +216,7 @@ void Searcher<G>::warm_up() {
     check(position());
     crew_->start([this](int index) {
         const auto at = static_cast<std::size_t>(index);
-        if (at < workers_.size()) workers_[at]->warm_up(position());
+        if (at < workers_.size()) workers_[at]->warm_up(position(), batch());
     });
     crew_->wait();
 }
@@ -228,7 +233,7 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
             std::move(cached), network_->make_rollouts(), unanswered_, share_,
             AlphaGoParams{.lambda = params_.lambda,
                           .temperature = params_.alphago_temperature,
-                          .batch = params_.batch,
+                          .batch = std::max(params_.batch, 1),
                           .n_thr = params_.n_thr},
             seed);
     typename NetworkLeaf<G>::Temperatures temperatures;
@@ -247,8 +252,7 @@ void Searcher<G>::hire() {
     share_ = std::make_shared<CoreShare>(params_.network_share);
     for (int i = 0; i < params_.threads; ++i) {
         const auto seed = static_cast<std::uint64_t>(params_.seed) << 32 | static_cast<unsigned>(i);
-        const int batch = uses_network() && !uses_alphago() ? params_.batch : 1;
-        workers_.push_back(std::make_unique<Worker<G>>(make_leaf_evaluator(seed), batch));
+        workers_.push_back(std::make_unique<Worker<G>>(make_leaf_evaluator(seed)));
     }
     crew_ = std::make_unique<Crew>(params_.threads + 1);
     random_ = engine::Random(static_cast<std::uint64_t>(params_.seed));

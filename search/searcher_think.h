@@ -55,6 +55,7 @@ void Searcher<G>::begin_team(const Limits& limits) {
     team_ = std::make_unique<Team>();
     team_->early_end = params_.early_end && !uses_gumbel() && !limits_strength(limits);
     if (uses_network()) team_->check_every = 16;
+    team_->batch = batch();
     team_->meets_at_root = uses_gumbel() || params_.noise > 0;
     schedule_.reset();
     const auto now = standing(search_->tree(), search_->filter());

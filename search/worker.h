@@ -28,6 +28,7 @@ struct Team {
     std::atomic<std::uint64_t> limit = endless;  // of them
     bool early_end = false;  // before the limit, once the best move can no longer be caught
     std::uint64_t check_every = 256;   // simulations, whether it can be
+    int batch = 1;                     // leaves asked about at once, in a tree large enough
     bool meets_at_root = false;        // as soon as the root has its moves
     std::atomic<bool> full = false;    // is the tree
     std::optional<GumbelRoot> gumbel;  // with what moves to begin; changes at meetings only
@@ -37,16 +38,15 @@ struct Team {
 template <engine::Game G>
 class Worker {
    public:
-    // Asks the evaluator about `batch` leaves at once.
-    explicit Worker(std::unique_ptr<LeafEvaluator<G>> evaluator, int batch = 1)
-        : evaluator_(std::move(evaluator)), leaves_(static_cast<std::size_t>(batch)) {}
+    explicit Worker(std::unique_ptr<LeafEvaluator<G>> evaluator)
+        : evaluator_(std::move(evaluator)), leaves_(most_batch) {}
 
     std::uint64_t simulations() const { return simulations_.load(relaxed); }
     std::uint64_t steps() const { return steps_.load(relaxed); }
     std::uint64_t deepest() const { return deepest_.load(relaxed); }
     OwnerTally* tally() { return evaluator_->tally(); }
 
-    void warm_up(const G& game) { evaluator_->warm_up(game, static_cast<int>(leaves_.size())); }
+    void warm_up(const G& game, int batch) { evaluator_->warm_up(game, batch); }
     void reset_counts() { simulations_ = steps_ = deepest_ = 0; }
 
     // Returns when the team stops, its limit is reached or the root has nothing to search.
@@ -94,11 +94,21 @@ class Worker {
                !settled(standing(search.tree(), search.filter()), limit - turn);
     }
 
+    // Leaves to gather at once. The later ones of a batch are chosen without what the earlier will
+    // say, which few visits would not forgive.
+    static std::size_t most_leaves(const TreeSearch<G>& search, const Team& team) {
+        constexpr std::uint32_t visits_a_leaf = 16;
+        const auto visits = search.tree()[search.tree().root()].visits.load(relaxed);
+        return std::min<std::size_t>(static_cast<std::size_t>(team.batch),
+                                     1 + visits / visits_a_leaf);
+    }
+
     // With a turn for the first; false when it was not used.
     bool simulate(TreeSearch<G>& search, Team& team) {
+        const auto most = most_leaves(search, team);
         std::size_t gathered = 0;
         bool used = gather(search, team, gathered);
-        while (used && gathered > 0 && gathered < leaves_.size() && take_turn(search, team))
+        while (used && gathered > 0 && gathered < most && take_turn(search, team))
             if (!(used = gather(search, team, gathered))) team.started.fetch_sub(1);
         if (gathered == 0) return used;
         evaluate(search, std::span(leaves_).first(gathered));

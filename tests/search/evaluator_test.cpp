@@ -252,6 +252,22 @@ TYPED_TEST(Sources, AnswerInBatches) {
     EXPECT_NE(asked[0].alone.priors, asked[1].alone.priors);
 }
 
+int batch_of(const nn::Graph& graph, int board) {
+    return search::NetworkSource<go::Go>(
+               std::make_shared<search::Network>(graph, nn::Precision::fp32))
+        .batch(go::Go(board));
+}
+
+TEST(Sources, AskForBatchesWhereTheyPay) {
+    const auto small = fake::small_network<go::Go>();
+    EXPECT_EQ(batch_of(small, 7), 8);
+    EXPECT_EQ(batch_of(small, 9), 7);
+    EXPECT_EQ(batch_of(small, 13), 3);
+    EXPECT_EQ(batch_of(small, 19), 1);
+    // 1.1 GFLOP a position, for which a search told to stop would have to wait.
+    EXPECT_EQ(batch_of(fake::small_network<go::Go>(10, 192), 9), 3);
+}
+
 template <class Action>
 std::string message_of(Action action) {
     try {

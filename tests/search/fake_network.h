@@ -20,10 +20,12 @@ class Network final : public search::Evaluator<TicTacToe> {
    public:
     int asked = 0;
     int symmetric = 1;
-    std::vector<int> seen;  // symmetries, in the order of the questions
+    std::vector<int> seen;                        // symmetries, in the order of the questions
+    std::vector<std::size_t>* batches = nullptr;  // gets how many were asked about at once
     std::function<void(const search::Query<TicTacToe>&)> answer;
 
     void evaluate(std::span<const search::Query<TicTacToe>> queries) override {
+        if (batches) batches->push_back(queries.size());
         for (const auto& query : queries) {
             ++asked;
             seen.push_back(query.symmetry);
@@ -41,7 +43,7 @@ class Network final : public search::Evaluator<TicTacToe> {
 };
 
 template <engine::Encoded G>
-nn::Graph small_network() {
+nn::Graph small_network(int blocks = 1, int channels = 8) {
     const G game;
     const auto& encoding = G::encodings()[0];
     const auto shape = encoding.shape(game);
@@ -52,8 +54,8 @@ nn::Graph small_network() {
                    .source = {},
                    .licence = {},
                    .board = shape.height,
-                   .blocks = 1,
-                   .channels = 8};
+                   .blocks = blocks,
+                   .channels = channels};
     tower.planes = shape.planes;
     tower.globals = shape.globals;
     tower.value_width = 16;

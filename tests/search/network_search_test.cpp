@@ -1,6 +1,7 @@
 // Search with networks, on a toy game whose network the test writes itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -20,11 +21,15 @@ class Source final : public EvaluatorSource<TicTacToe> {
     std::unique_ptr<Evaluator<TicTacToe>> make_evaluator() const override {
         auto made = std::make_unique<fake::Network>();
         made->answer = answer_;
+        made->batches = batches;
         return made;
     }
+    int batch(const TicTacToe&) const override { return 4; }
     std::string_view name() const override { return "fake"; }
     void check(const TicTacToe&) const override {}
     int policy_index(const TicTacToe&, engine::Move move) const override { return move.code; }
+
+    std::vector<std::size_t>* batches = nullptr;  // gets how many were asked about at once
 
    private:
     Answer answer_;
@@ -102,6 +107,31 @@ TEST(Puct, BatchesCountEverySimulation) {
         EXPECT_EQ(picture.visits, 400u) << batch;
         EXPECT_EQ(picture.moves.at(0).move, cell(3)) << batch;
     }
+}
+
+std::vector<std::size_t> batches_of(int batch, std::uint64_t count) {
+    std::vector<std::size_t> batches;
+    const auto source = std::make_shared<Source>(even);
+    source->batches = &batches;
+    auto params = small();
+    params.batch = batch;
+    Searcher<TicTacToe> searcher(params);
+    searcher.set_network(source);
+    Limits limits;
+    limits.simulations = count;
+    searcher.think(limits);
+    return batches;
+}
+
+// What the network asks for unless settings do, and less of it while the tree is small.
+TEST(Puct, BatchesGrowWithTheTree) {
+    const auto small_tree = batches_of(0, 12), automatic = batches_of(0, 400),
+               six = batches_of(6, 400), one = batches_of(1, 400);
+    EXPECT_EQ(std::ranges::max(small_tree), 1u);
+    EXPECT_EQ(std::ranges::max(automatic), 4u);
+    EXPECT_EQ(automatic.front(), 1u);
+    EXPECT_EQ(std::ranges::max(six), 6u);
+    EXPECT_EQ(std::ranges::max(one), 1u);
 }
 
 TEST(Puct, ThreadsCountEverySimulation) {
