@@ -7,7 +7,7 @@ namespace search {
 namespace {
 
 constexpr Milliseconds none{0}, least{1};
-// Of a short period, kept back: of the last, and of one with a spare behind it.
+// Of a short period, kept back: of the last, and of one with a spare behind it or with no clock.
 constexpr double last_share = 0.2, spare_share = 0.1;
 
 // What one overtime period gives each of its moves.
@@ -47,7 +47,7 @@ Milliseconds within_period(Milliseconds period, Milliseconds lag, double share) 
 Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
     const int moves = std::max(left.moves, 1);
     if (moves == 1) {
-        const auto now = move_within(left.period, lag);
+        const auto now = within_period(left.period, lag, last_share);
         if (left.periods <= 1 || left.control.period_moves > 1) return within(now, now, now);
         // A spare period may go on a hard move, or on a moment too much; the last may not.
         const auto most = now + left.control.period;
@@ -60,7 +60,7 @@ Allotment of_overtime(const TimeLeft& left, Milliseconds lag) {
 }  // namespace
 
 Milliseconds move_within(Milliseconds period, Milliseconds lag) {
-    return within_period(period, lag, last_share);
+    return within_period(period, lag, spare_share);
 }
 
 TimeLeft TimeLeft::start_of(const TimeControl& control) {

@@ -50,8 +50,8 @@ struct Allotment {
 // opponent's clock and ours, measured. Empty when time is unlimited.
 std::optional<Allotment> allot(const TimeLeft& left, int moves_left, Milliseconds lag);
 
-// How long to think for a move that must be there before the period is over, `lag` as above. A
-// moment too much loses the game: more is kept back than was ever seen to be needed.
+// How long to think for a move that was asked for within `period`, `lag` as above. A moment too
+// much runs out no clock: half as much is kept back as of a last period of byo-yomi.
 Milliseconds move_within(Milliseconds period, Milliseconds lag);
 
 // How late thinks end after the moment they were asked to, on this machine as loaded as it is:

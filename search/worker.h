@@ -105,10 +105,12 @@ class Worker {
 
     // With a turn for the first; false when it was not used.
     bool simulate(TreeSearch<G>& search, Team& team) {
-        const auto most = most_leaves(search, team);
         std::size_t gathered = 0;
         bool used = gather(search, team, gathered);
-        while (used && gathered > 0 && gathered < most && take_turn(search, team))
+        // What is proven may draw every descent to itself: it is these that are counted.
+        const auto most = most_leaves(search, team);
+        for (std::size_t tried = 1; used && gathered > 0 && tried < most && take_turn(search, team);
+             ++tried)
             if (!(used = gather(search, team, gathered))) team.started.fetch_sub(1);
         if (gathered == 0) return used;
         evaluate(search, std::span(leaves_).first(gathered));

@@ -214,6 +214,12 @@ TEST(Allot, KeepsPartOfByoYomiBack) {
     EXPECT_EQ(hard(10s, 20ms), 9700ms);
 }
 
+TEST(Allot, KeepsLessOfAMoveTimeBack) {
+    EXPECT_EQ(move_within(500ms, 20ms), 450ms);
+    EXPECT_EQ(move_within(100ms, 20ms), 80ms);
+    EXPECT_EQ(move_within(10s, 20ms), 9700ms);
+}
+
 TEST(LagMeter, RemembersTheGreatestAndForgetsSlowly) {
     LagMeter meter;
     EXPECT_EQ(meter.reserve(), 0ms);

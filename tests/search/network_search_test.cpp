@@ -134,6 +134,21 @@ TEST(Puct, BatchesGrowWithTheTree) {
     EXPECT_EQ(std::ranges::max(one), 1u);
 }
 
+// A win that is found while leaves are gathered draws every further descent, none of which is a
+// leaf: the search has to end in time all the same.
+TEST(Puct, BatchesEndWhereAWinIsFound) {
+    auto params = small();
+    params.batch = 8;
+    for (const std::string_view moves : {"", "1", "15", "12", "19", "152", "127", "195", "1952"}) {
+        Searcher<TicTacToe> searcher(params);
+        searcher.set_network(std::make_shared<Source>(even));
+        searcher.set_position(TicTacToe::from_text(moves));
+        Limits limits;
+        limits.time = Milliseconds(200);
+        EXPECT_GT(searcher.think(limits).visits, 0u) << moves;
+    }
+}
+
 TEST(Puct, ThreadsCountEverySimulation) {
     auto params = small();
     params.threads = 4;
