@@ -29,6 +29,9 @@ OutputMap::OutputMap(const nn::Graph& graph)
       value(find_output(graph, "value")),
       ownership(find_output(graph, "ownership")) {
     for (std::size_t i = 0; i < figure_count; ++i) figures[i] = find_output(graph, figure_names[i]);
+    // Ours, and KataGo's first ones, know of the lead what they expect of the score.
+    auto& lead = figures[static_cast<std::size_t>(Figure::lead)];
+    if (!lead) lead = figures[static_cast<std::size_t>(Figure::score)];
 }
 
 void OutputMap::check(std::string_view name) const {

@@ -99,6 +99,9 @@ class EvaluatorSource {
     virtual std::string_view name() const = 0;
     // Of its priors, as search makes the best of them.
     virtual float policy_temperature() const { return 1; }
+    // Of games played out in the value of a position, as makes the search strongest where the
+    // network is asked of every leaf.
+    virtual float rollout_share() const { return 0; }
     // Of such games, as many as are best asked about at once: an answer for each then comes
     // soonest, and none of them late.
     virtual int batch(const G&) const { return 1; }

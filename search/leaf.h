@@ -82,6 +82,17 @@ class LeafEvaluator {
     virtual void warm_up(const G&, int /*most*/) {}
 };
 
+// The result, as `mover` sees it, and in games with points a little of the lead: of moves that all
+// win, or all lose, the search is to find the best as well.
+inline float rollout_value(engine::Player mover, const engine::RolloutResult& result) {
+    constexpr float share = 0.1f;
+    const float outcome = engine::value_for(mover, result.outcome);
+    if (result.owners.empty()) return outcome;
+    const float all = result.lead / static_cast<float>(result.owners.size());
+    const float lead = std::clamp(mover == engine::Player::first ? all : -all, -1.0f, 1.0f);
+    return (1 - share) * outcome + share * lead;
+}
+
 // Monte Carlo: the result of one game played to the end. Priors are the rollout policy's where it
 // weighs moves, else equal.
 template <engine::Game G>
@@ -109,19 +120,8 @@ class RolloutLeaf final : public LeafEvaluator<G> {
         const auto result = rollouts_.play(leaf.game, random_);
         tally_.add(result);
         leaf.firsts.assign(result.firsts.begin(), result.firsts.end());
-        leaf.value = value(leaf.game.to_play(), result);
+        leaf.value = rollout_value(leaf.game.to_play(), result);
         leaf.draws = result.outcome == engine::Outcome::draw ? 1.0f : 0.0f;
-    }
-
-    // The result, and in games with points a little of the lead: of moves that all win, or all
-    // lose, the search is to find the best as well.
-    static float value(engine::Player mover, const engine::RolloutResult& result) {
-        constexpr float share = 0.1f;
-        const float outcome = engine::value_for(mover, result.outcome);
-        if (result.owners.empty()) return outcome;
-        const float all = result.lead / static_cast<float>(result.owners.size());
-        const float lead = std::clamp(mover == engine::Player::first ? all : -all, -1.0f, 1.0f);
-        return (1 - share) * outcome + share * lead;
     }
 
     void weigh(Leaf<G>& leaf) const {

@@ -209,11 +209,12 @@ class NetworkSource final : public EvaluatorSource<G> {
     // In which the search runs it.
     nn::Precision precision() const { return network_->precision(); }
     std::string_view name() const override { return network_->graph().facts.name; }
-    // What our training makes of chess and shogi plays best so, by matches that the README has.
-    float policy_temperature() const override {
-        const auto& facts = network_->graph().facts;
-        return facts.game != "go" && facts.source.starts_with("sanban ") ? 1.5f : 1.0f;
-    }
+    // What our training makes of chess and shogi plays best so, by matches that
+    // weights/training.md has.
+    float policy_temperature() const override { return !plays_go() && ours() ? 1.5f : 1.0f; }
+    // What it makes of Go, by thousands of games where others had millions, knows openings better
+    // than who is alive at the end (likewise).
+    float rollout_share() const override { return plays_go() && ours() ? 0.4f : 0.0f; }
     // Small boards leave the kernels half empty when they come alone; beyond so many points nothing
     // is gained, and so many operations keep a search that is told to stop for 10 ms or more.
     int batch(const G& game) const override {
@@ -239,6 +240,9 @@ class NetworkSource final : public EvaluatorSource<G> {
     }
 
    private:
+    bool plays_go() const { return network_->graph().facts.game == "go"; }
+    bool ours() const { return network_->graph().facts.source.starts_with("sanban "); }
+
     std::shared_ptr<const Network> network_, exact_;
     const engine::Encoding<G>* encoding_ = nullptr;
 };

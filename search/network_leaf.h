@@ -1,5 +1,7 @@
-// The leaf evaluator of AlphaGo Zero and AlphaZero: priors and value from a network, nothing
-// played out. Priors come sorted, the highest first, which makes selection fast.
+// The leaf evaluator of AlphaGo Zero and AlphaZero: priors and value from a network; where that is
+// not to be trusted with who lives at the end, a game is played out besides, and the value is
+// blended as AlphaGo's (Silver et al. 2016). Priors come sorted, the highest first, which makes
+// selection fast.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include "search/evaluator.h"
 #include "search/leaf.h"
 #include "search/prior_sorter.h"
+#include "search/rollout_player.h"
 
 namespace search {
 
@@ -31,11 +34,19 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     struct Temperatures {
         float root = 1, elsewhere = 1;
     };
+    // One game played out from every leaf.
+    struct Rollouts {
+        std::unique_ptr<RolloutPlayer<G>> player;  // may be none with a share of 0
+        float share = 0;                           // of a value; the rest is the network's
+        std::uint64_t seed = 0;
+    };
     NetworkLeaf(std::unique_ptr<Evaluator<G>> evaluator, bool average_root,
-                Temperatures temperatures = {})
+                Temperatures temperatures = {}, Rollouts rollouts = {})
         : evaluator_(std::move(evaluator)),
           average_root_(average_root),
-          temperatures_(temperatures) {}
+          temperatures_(temperatures),
+          rollouts_(std::move(rollouts)),
+          random_(rollouts_.seed) {}
 
     void evaluate(std::span<Leaf<G>> leaves) override {
         answers_.resize(std::max(answers_.size(), leaves.size()));
@@ -59,6 +70,7 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     void absorb(Evaluation& answer, Leaf<G>& leaf) {
         leaf.value = answer.value();
         leaf.draws = answer.draw;
+        if (rollouts_.share > 0) roll_out(leaf);
         const float sign = leaf.game.to_play() == engine::Player::first ? 1.0f : -1.0f;
         if (!answer.owners.empty()) tally_.add(answer.owners, answer[Figure::lead], sign);
         if (const float left = answer[Figure::moves_left]; left > 0)
@@ -69,9 +81,17 @@ class NetworkLeaf final : public LeafEvaluator<G> {
         leaf.priors.swap(answer.priors);
     }
 
+    void roll_out(Leaf<G>& leaf) {
+        const auto result = rollouts_.player->play(leaf.game, random_);
+        const float played = rollout_value(leaf.game.to_play(), result);
+        leaf.value += rollouts_.share * (played - leaf.value);
+    }
+
     std::unique_ptr<Evaluator<G>> evaluator_;
     bool average_root_;
     Temperatures temperatures_;
+    Rollouts rollouts_;
+    engine::Random random_;
     std::vector<Evaluation> answers_;
     std::vector<Query<G>> queries_;
     PriorSorter sorter_;

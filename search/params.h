@@ -36,7 +36,7 @@ struct SearchParams {
     float noise = 0, noise_alpha = 0;   // of the priors at the root (Dirichlet)
     int gumbel_moves = 16;              // root moves that take part (gumbel)
     float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
-    float lambda = 0.5f;
+    float lambda = -1;  // share of rollouts in a value, -1: what suits; not of uct
     int n_thr = 0;
     float network_share = 0.5f;
     Prior prior = Prior::supervised;
@@ -103,9 +103,10 @@ struct SearchParams {
             Option<P, float>{"gumbel-scale", &P::gumbel_scale, 0, 1000, "c_scale (gumbel)"},
             Option<P, float>{"gumbel-noise", &P::gumbel_noise, 0, 10,
                              "of the choice of candidates; 1 in self-play (gumbel)"},
-            Option<P, float>{"lambda", &P::lambda, 0, 1,
-                             "share of rollouts in a value, the rest is the network's; all "
-                             "where it has no value (alphago)"},
+            Option<P, float>{"lambda", &P::lambda, -1, 1,
+                             "share of rollouts in a value, the rest is the network's; all where "
+                             "it has no value; -1: what suits, half in alphago, else for networks "
+                             "of Go by sanban's training what makes them strongest"},
             Option<P, int>{"n-thr", &P::n_thr, 0, 100'000,
                            "visits at which a leaf gets children and networks are asked (alphago); "
                            "0: as many as give networks their share; the paper: 40 at first"},

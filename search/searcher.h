@@ -193,9 +193,11 @@ template <engine::Game G>
 SearchParams Searcher<G>::settled(SearchParams given, const EvaluatorSource<G>* network) {
     if (!network) return given;
     if (given.method == Method::automatic && network->blends()) given.method = Method::alphago;
+    const bool alphago = given.method == Method::alphago;
+    if (given.lambda < 0) given.lambda = alphago ? 0.5f : network->rollout_share();
     if (network->has_value()) return given;
     given.lambda = 1;
-    if (given.method != Method::uct && given.method != Method::alphago)
+    if (given.method != Method::uct && !alphago)
         engine::fail("the network {} has no value: it needs --search alphago", network->name());
     return given;
 }
@@ -241,8 +243,10 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
                                                             : network_->policy_temperature();
     const float root = params_.root_policy_temperature;
     temperatures.root = root > 0 ? root : temperatures.elsewhere;
+    typename NetworkLeaf<G>::Rollouts rollouts{nullptr, params_.lambda, seed};
+    if (params_.lambda > 0) rollouts.player = network_->make_rollouts();
     return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries,
-                                            temperatures);
+                                            temperatures, std::move(rollouts));
 }
 
 template <engine::Game G>

@@ -45,6 +45,23 @@ TEST(Answer, WithoutDrawsTheRestIsNormalised) {
     EXPECT_GT(answer.draw, 0.9f);
 }
 
+TEST(Answer, TheScoreIsTheLeadOfANetworkWithoutAWordOnThat) {
+    using search::Figure;
+    nn::TowerDescription tower;
+    tower.facts = {.game = "go", .encoding = "katago-v7", .board = 0, .blocks = 1, .channels = 8};
+    tower.planes = 22;
+    tower.globals = 19;
+    tower.policy = nn::PolicyHead::points;
+    tower.flat_value = false;
+    tower.wdl = tower.ownership = tower.score = true;
+    engine::Random random(1);
+    const search::OutputMap map(nn::build_tower(tower, random));
+    const auto at = [&](Figure figure) { return map.figures[static_cast<std::size_t>(figure)]; };
+    ASSERT_TRUE(at(Figure::score));
+    EXPECT_EQ(at(Figure::lead), at(Figure::score));
+    EXPECT_FALSE(at(Figure::score_deviation));
+}
+
 TEST(Answer, EverySymmetryIsAPermutation) {
     std::vector<int> seen(25);
     for (int symmetry = 0; symmetry < 8; ++symmetry)

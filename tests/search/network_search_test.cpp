@@ -15,6 +15,15 @@ namespace {
 using tictactoe::TicTacToe;
 using Answer = std::function<void(const Query<TicTacToe>&)>;
 
+// Games played out that all end alike.
+class FirstWins final : public RolloutPlayer<TicTacToe> {
+   public:
+    engine::RolloutResult play(const TicTacToe&, engine::Random&) override {
+        return {engine::Outcome::first_wins, 0, {}, {}};
+    }
+    void weigh(const TicTacToe&, const engine::MoveList&, std::vector<float>&) const override {}
+};
+
 class Source final : public EvaluatorSource<TicTacToe> {
    public:
     explicit Source(Answer answer) : answer_(std::move(answer)) {}
@@ -24,11 +33,16 @@ class Source final : public EvaluatorSource<TicTacToe> {
         made->batches = batches;
         return made;
     }
+    std::unique_ptr<RolloutPlayer<TicTacToe>> make_rollouts() const override {
+        return std::make_unique<FirstWins>();
+    }
+    float rollout_share() const override { return share; }
     int batch(const TicTacToe&) const override { return 4; }
     std::string_view name() const override { return "fake"; }
     void check(const TicTacToe&) const override {}
     int policy_index(const TicTacToe&, engine::Move move) const override { return move.code; }
 
+    float share = 0;
     std::vector<std::size_t>* batches = nullptr;  // gets how many were asked about at once
 
    private:
@@ -74,6 +88,31 @@ TEST(Puct, OneVisitShowsThePriors) {
     EXPECT_NEAR(picture.value, 0.4, 1e-6);
     EXPECT_EQ(picture.moves.at(0).move, cell(7));
     EXPECT_NEAR(picture.moves.at(0).prior, 0.6, 1e-3);
+}
+
+// Of a root visited once, by a network that gives its mover 0.4.
+float blended_value(float share, float lambda, std::string_view moves) {
+    const auto source = std::make_shared<Source>([](const Query<TicTacToe>& query) {
+        query.answer->win = 0.7f;
+        query.answer->loss = 0.3f;
+    });
+    source->share = share;
+    auto params = small();
+    params.lambda = lambda;
+    Searcher<TicTacToe> searcher(params);
+    searcher.set_network(source);
+    searcher.set_position(TicTacToe::from_text(moves));
+    Limits limits;
+    limits.simulations = 1;
+    return searcher.think(limits).value;
+}
+
+TEST(Puct, LeavesArePlayedOutAsSuitsTheNetworkUnlessToldOtherwise) {
+    EXPECT_NEAR(blended_value(0, -1, ""), 0.4f, 1e-6f);
+    EXPECT_NEAR(blended_value(0.25f, -1, ""), 0.75f * 0.4f + 0.25f, 1e-6f);
+    EXPECT_NEAR(blended_value(0.25f, -1, "5"), 0.75f * 0.4f - 0.25f, 1e-6f);
+    EXPECT_NEAR(blended_value(0.25f, 0, ""), 0.4f, 1e-6f);
+    EXPECT_NEAR(blended_value(0, 1, "5"), -1, 1e-6f);
 }
 
 // With equal values, visits follow the priors.
