@@ -34,10 +34,10 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     struct Temperatures {
         float root = 1, elsewhere = 1;
     };
-    // One game played out from every leaf.
+    // One game played out from every leaf, with a player.
     struct Rollouts {
-        std::unique_ptr<RolloutPlayer<G>> player;  // may be none with a share of 0
-        float share = 0;                           // of a value; the rest is the network's
+        std::unique_ptr<RolloutPlayer<G>> player;
+        float share = 0;  // of a value; the rest is the network's
         std::uint64_t seed = 0;
     };
     NetworkLeaf(std::unique_ptr<Evaluator<G>> evaluator, bool average_root,
@@ -70,7 +70,7 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     void absorb(Evaluation& answer, Leaf<G>& leaf) {
         leaf.value = answer.value();
         leaf.draws = answer.draw;
-        if (rollouts_.share > 0) roll_out(leaf);
+        if (rollouts_.player) roll_out(leaf);
         const float sign = leaf.game.to_play() == engine::Player::first ? 1.0f : -1.0f;
         if (!answer.owners.empty()) tally_.add(answer.owners, answer[Figure::lead], sign);
         if (const float left = answer[Figure::moves_left]; left > 0)

@@ -38,6 +38,11 @@ TEST(GtpTable, ListsAndHelpAndManualAgree) {
     }
 }
 
+TEST(GtpTable, TheReadmeHasIt) {
+    const std::filesystem::path root = SANBAN_SOURCE_DIR;
+    EXPECT_TRUE(has(engine::read_file(root / "README.md"), Gtp::manual()));
+}
+
 TEST(GtpTable, KnowsWhatEveryManagerNeeds) {
     GtpGuest guest;
     for (const auto* name : {"protocol_version",

@@ -60,9 +60,11 @@ SearchParams small() {
 }
 
 Analysis searched(const SearchParams& params, std::string_view moves, std::uint64_t count,
-                  const Answer& answer = even) {
+                  const Answer& answer = even, float share = 0) {
     Searcher<TicTacToe> searcher(params);
-    searcher.set_network(std::make_shared<Source>(answer));
+    const auto source = std::make_shared<Source>(answer);
+    source->share = share;
+    searcher.set_network(source);
     searcher.set_position(TicTacToe::from_text(moves));
     Limits limits;
     limits.simulations = count;
@@ -92,19 +94,13 @@ TEST(Puct, OneVisitShowsThePriors) {
 
 // Of a root visited once, by a network that gives its mover 0.4.
 float blended_value(float share, float lambda, std::string_view moves) {
-    const auto source = std::make_shared<Source>([](const Query<TicTacToe>& query) {
-        query.answer->win = 0.7f;
-        query.answer->loss = 0.3f;
-    });
-    source->share = share;
     auto params = small();
     params.lambda = lambda;
-    Searcher<TicTacToe> searcher(params);
-    searcher.set_network(source);
-    searcher.set_position(TicTacToe::from_text(moves));
-    Limits limits;
-    limits.simulations = 1;
-    return searcher.think(limits).value;
+    const auto answer = [](const Query<TicTacToe>& query) {
+        query.answer->win = 0.7f;
+        query.answer->loss = 0.3f;
+    };
+    return searched(params, moves, 1, answer, share).value;
 }
 
 TEST(Puct, LeavesArePlayedOutAsSuitsTheNetworkUnlessToldOtherwise) {
