@@ -8,10 +8,12 @@
 
 #include "engine/base/error.h"
 #include "engine/chess/chess.h"
+#include "engine/chess/exchanges.h"
 #include "engine/chess/rollouts.h"
 #include "engine/game.h"
 #include "engine/go/go.h"
 #include "engine/go/rollouts.h"
+#include "engine/shogi/exchanges.h"
 #include "engine/shogi/rollouts.h"
 #include "engine/shogi/shogi.h"
 

@@ -12,7 +12,7 @@
 namespace engine {
 
 struct RolloutResult {
-    Outcome outcome = Outcome::draw;
+    Outcome outcome = Outcome::draw;  // ongoing where it ended before the game did
     float lead =
         0;  // points by which the first player leads, komi counted; 0 in games without points
     // A point's owner at the end, +1 first player, -1 second, 0 nobody, in the game's own order
@@ -21,6 +21,8 @@ struct RolloutResult {
     // Who made a move first in the rollout, by the move's code: +1 first player, -1 second, 0
     // nobody; empty in games that keep no such account. Valid until the next rollout.
     std::span<const std::int8_t> firsts = {};
+    // Of an ongoing one: what the first player may expect, in [-1, 1].
+    float expectation = 0;
 };
 
 template <Game G>
@@ -50,6 +52,16 @@ template <class G>
 requires requires { typename G::Rollouts; }
 struct RolloutsOf<G> {
     using type = typename G::Rollouts;
+};
+
+// What plays a position out beside a network: rollouts, or where the game has a type `Exchanges`,
+// the captures alone, which say at once what random moves would not.
+template <class G>
+struct PlayoutsOf : RolloutsOf<G> {};
+template <class G>
+requires requires { typename G::Exchanges; }
+struct PlayoutsOf<G> {
+    using type = typename G::Exchanges;
 };
 
 // Rollouts whose policy also weighs moves for the tree: one positive weight a move, 1 where nothing

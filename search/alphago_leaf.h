@@ -125,7 +125,7 @@ class AlphaGoLeaf final : public LeafEvaluator<G> {
         if (params_.lambda == 0) return;
         const auto result = rollouts_->play(leaf.game, random_);
         tally_.add(result);
-        leaf.value = engine::value_for(leaf.game.to_play(), result.outcome);
+        leaf.value = result_value(leaf.game.to_play(), result);
         leaf.draws = result.outcome == engine::Outcome::draw ? 1.0f : 0.0f;
     }
 

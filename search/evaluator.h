@@ -92,15 +92,15 @@ class EvaluatorSource {
     virtual std::unique_ptr<Evaluator<G>> make_evaluator_of(Prior) const {
         return make_evaluator();
     }
-    // Rollouts by the set's own policy; by the game's where it has none.
+    // What plays positions out besides: rollouts by the set's own policy, else what the game has.
     virtual std::unique_ptr<RolloutPlayer<G>> make_rollouts() const {
-        return std::make_unique<RolloutPlayerBy<G, typename engine::RolloutsOf<G>::type>>();
+        return std::make_unique<RolloutPlayerBy<G, typename engine::PlayoutsOf<G>::type>>();
     }
     virtual std::string_view name() const = 0;
     // Of its priors, as search makes the best of them.
     virtual float policy_temperature() const { return 1; }
-    // Of games played out in the value of a position, as makes the search strongest where the
-    // network is asked of every leaf.
+    // Of playing out in the value of a position, as makes the search strongest where the network
+    // is asked of every leaf.
     virtual float rollout_share() const { return 0; }
     // Of such games, as many as are best asked about at once: an answer for each then comes
     // soonest, and none of them late.

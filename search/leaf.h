@@ -82,11 +82,17 @@ class LeafEvaluator {
     virtual void warm_up(const G&, int /*most*/) {}
 };
 
-// The result, as `mover` sees it, and in games with points a little of the lead: of moves that all
-// win, or all lose, the search is to find the best as well.
+// The result, or what is expected of one that was not reached, as `mover` sees it.
+inline float result_value(engine::Player mover, const engine::RolloutResult& result) {
+    if (result.outcome != engine::Outcome::ongoing) return engine::value_for(mover, result.outcome);
+    return mover == engine::Player::first ? result.expectation : -result.expectation;
+}
+
+// The same, and in games with points a little of the lead: of moves that all win, or all lose, the
+// search is to find the best as well.
 inline float rollout_value(engine::Player mover, const engine::RolloutResult& result) {
     constexpr float share = 0.1f;
-    const float outcome = engine::value_for(mover, result.outcome);
+    const float outcome = result_value(mover, result);
     if (result.owners.empty()) return outcome;
     const float all = result.lead / static_cast<float>(result.owners.size());
     const float lead = std::clamp(mover == engine::Player::first ? all : -all, -1.0f, 1.0f);

@@ -209,12 +209,8 @@ class NetworkSource final : public EvaluatorSource<G> {
     // In which the search runs it.
     nn::Precision precision() const { return network_->precision(); }
     std::string_view name() const override { return network_->graph().facts.name; }
-    // What our training makes of chess and shogi plays best so, by matches that
-    // weights/training.md has.
-    float policy_temperature() const override { return !plays_go() && ours() ? 1.5f : 1.0f; }
-    // What it makes of Go, by thousands of games where others had millions, knows openings better
-    // than who is alive at the end (likewise).
-    float rollout_share() const override { return plays_go() && ours() ? 0.4f : 0.0f; }
+    float policy_temperature() const override { return ours() ? suited().temperature : 1; }
+    float rollout_share() const override { return ours() ? suited().rollout_share : 0; }
     // Small boards leave the kernels half empty when they come alone; beyond so many points nothing
     // is gained, and so many operations keep a search that is told to stop for 10 ms or more.
     int batch(const G& game) const override {
@@ -240,7 +236,18 @@ class NetworkSource final : public EvaluatorSource<G> {
     }
 
    private:
-    bool plays_go() const { return network_->graph().facts.game == "go"; }
+    // What the search makes the best of our training's networks by, from thousands of games where
+    // others had millions: they know openings better than who is alive at the end in Go, and what
+    // hangs in chess and shogi. By matches that weights/training.md has.
+    struct Suited {
+        float temperature, rollout_share;
+    };
+    static constexpr Suited suited() {
+        if constexpr (G::name == "go") return {1, 0.4f};
+        if constexpr (G::name == "chess") return {1.7f, 0.5f};
+        if constexpr (G::name == "shogi") return {1.5f, 0.3f};
+        return {1, 0};
+    }
     bool ours() const { return network_->graph().facts.source.starts_with("sanban "); }
 
     std::shared_ptr<const Network> network_, exact_;

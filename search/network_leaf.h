@@ -1,7 +1,7 @@
 // The leaf evaluator of AlphaGo Zero and AlphaZero: priors and value from a network; where that is
-// not to be trusted with who lives at the end, a game is played out besides, and the value is
-// blended as AlphaGo's (Silver et al. 2016). Priors come sorted, the highest first, which makes
-// selection fast.
+// not to be trusted with who lives at the end, or with what hangs, the position is played out
+// besides (a game of Go, the captures of chess and shogi), and the value is blended as AlphaGo's
+// (Silver et al. 2016). Priors come sorted, the highest first, which makes selection fast.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     struct Temperatures {
         float root = 1, elsewhere = 1;
     };
-    // One game played out from every leaf, with a player.
+    // Every leaf played out, with a player.
     struct Rollouts {
         std::unique_ptr<RolloutPlayer<G>> player;
         float share = 0;  // of a value; the rest is the network's

@@ -90,7 +90,7 @@ struct SearchParams {
                              "losses that a visit under way counts (puct)"},
             Option<P, float>{"policy-temperature", &P::policy_temperature, 0, 10,
                              "of the network's priors; above 1 they are evened out; 0: what suits "
-                             "it, 1.5 for chess and shogi by sanban's training, else 1"},
+                             "it, 1.7 for chess and 1.5 for shogi by sanban's training, else 1"},
             Option<P, float>{"root-policy-temperature", &P::root_policy_temperature, 0, 10,
                              "likewise at the root; 0: as elsewhere"},
             Option<P, float>{"noise", &P::noise, 0, 1,
@@ -104,9 +104,10 @@ struct SearchParams {
             Option<P, float>{"gumbel-noise", &P::gumbel_noise, 0, 10,
                              "of the choice of candidates; 1 in self-play (gumbel)"},
             Option<P, float>{"lambda", &P::lambda, -1, 1,
-                             "share of rollouts in a value, the rest is the network's; all where "
-                             "it has no value; -1: what suits, half in alphago, else for networks "
-                             "of Go by sanban's training what makes them strongest"},
+                             "share of rollouts (chess, shogi: of captures played out) in a value, "
+                             "the rest is the network's; all where it has no value; -1: what "
+                             "suits, half in alphago, else for networks by sanban's training what "
+                             "makes them strongest"},
             Option<P, int>{"n-thr", &P::n_thr, 0, 100'000,
                            "visits at which a leaf gets children and networks are asked (alphago); "
                            "0: as many as give networks their share; the paper: 40 at first"},

@@ -53,11 +53,13 @@ class PackedBoard {
     Bitboard white_ = 0;
 };
 
-class Rollouts;  // chess/rollouts.h
+class Rollouts;   // chess/rollouts.h
+class Exchanges;  // chess/exchanges.h
 
 class Chess {
    public:
     using Rollouts = chess::Rollouts;
+    using Exchanges = chess::Exchanges;
     static constexpr std::string_view name = "chess";
     // Boards that are remembered, the present one among them.
     static constexpr int remembered_boards = 8;

@@ -35,6 +35,36 @@ class ListSink {
     MoveList& list_;
 };
 
+class CaptureSink {
+   public:
+    CaptureSink(MoveList& list, Bitboard enemies) : list_(list), enemies_(enemies) {}
+    void from(Square from, Bitboard targets) {
+        targets &= enemies_;
+        while (targets != 0) list_.push(make_move(from, pop(targets)));
+    }
+    void pawns(int step, Bitboard targets) {
+        targets &= enemies_;
+        while (targets != 0) {
+            const Square to = pop(targets);
+            list_.push(make_move(to - step, to));
+        }
+    }
+    void promoting(int step, Bitboard targets) {
+        while (targets != 0) {
+            const Square to = pop(targets);
+            list_.push(make_move(to - step, to, MoveKind::promotion, Piece::queen));
+        }
+    }
+    void one(Move move) {
+        if (kind_of(move) == MoveKind::en_passant) list_.push(move);
+    }
+    static constexpr bool done() { return false; }
+
+   private:
+    MoveList& list_;
+    Bitboard enemies_;
+};
+
 class CountSink {
    public:
     int count() const { return count_; }
@@ -222,6 +252,13 @@ void generate(const Position& position, Sink& sink) {
 MoveList Position::legal_moves() const {
     MoveList moves;
     ListSink sink(moves);
+    generate(*this, sink);
+    return moves;
+}
+
+MoveList Position::captures() const {
+    MoveList moves;
+    CaptureSink sink(moves, pieces(~to_play_));
     generate(*this, sink);
     return moves;
 }

@@ -98,6 +98,8 @@ class Position {
 
     // All of them are legal; the order is fixed.
     MoveList legal_moves() const;
+    // Those of them that capture or promote to a queen.
+    MoveList captures() const;
     int count_legal_moves() const;
     bool has_legal_move() const;
     // Leaves of the tree of legal moves of that depth; 1 at depth 0.

@@ -9,6 +9,7 @@ using engine::MoveList;
 
 // Sinks: what becomes of the moves that the generator finds, given as sets of target squares.
 struct List {
+    static constexpr bool with_drops = true;
     void pawns(Bitboard plain, Bitboard promoting, int back) {
         for_each(promoting, [&](int to) { list.push(board_move(to + back, to, true)); });
         for_each(plain, [&](int to) { list.push(board_move(to + back, to)); });
@@ -25,7 +26,24 @@ struct List {
     MoveList& list;
 };
 
+// Of moves that may promote only those that do.
+struct Captures {
+    static constexpr bool with_drops = false;
+    void pawns(Bitboard plain, Bitboard promoting, int back) {
+        List{list}.pawns(plain & ~promoting & enemies, promoting, back);
+    }
+    void moves(int from, Bitboard plain, Bitboard promoting) {
+        List{list}.moves(from, plain & ~promoting & enemies, promoting & enemies);
+    }
+    void drops(Kind, Bitboard) {}
+    static constexpr bool enough() { return false; }
+
+    MoveList& list;
+    Bitboard enemies;
+};
+
 struct Count {
+    static constexpr bool with_drops = true;
     void pawns(Bitboard plain, Bitboard promoting, int) {
         total += count(plain) + count(promoting);
     }
@@ -39,6 +57,7 @@ struct Count {
 };
 
 struct Any {
+    static constexpr bool with_drops = true;
     void pawns(Bitboard plain, Bitboard promoting, int) { found |= plain | promoting; }
     void moves(int, Bitboard plain, Bitboard promoting) { found |= plain | promoting; }
     void drops(Kind, Bitboard targets) { found |= targets; }
@@ -90,7 +109,7 @@ class Generator {
         if (position_.has_king(us)) king();
         if (targets_ == 0 || sink_.enough()) return;
         const Bitboard free = own_ & ~pinned_;
-        pawns(free & position_.of(Kind::pawn));
+        pawns(free & position_.of(Kind::pawn), targets_);
         all<Kind::lance>(free);
         all<Kind::knight>(free);
         all<Kind::silver>(free);
@@ -99,7 +118,8 @@ class Generator {
         all<Kind::rook>(free);
         all<Kind::horse>(free);
         all<Kind::dragon>(free);
-        if (!sink_.enough() && !position_.hand_empty(us)) drops();
+        if constexpr (Sink::with_drops)
+            if (!sink_.enough() && !position_.hand_empty(us)) drops();
     }
 
    private:
@@ -141,7 +161,7 @@ class Generator {
     void move_pinned(int from, Bitboard allowed) {
         switch (position_.at(from).kind()) {
             case Kind::pawn:
-                return move<Kind::pawn>(from, allowed);
+                return pawns(bit(from), allowed);
             case Kind::lance:
                 return move<Kind::lance>(from, allowed);
             case Kind::knight:
@@ -183,8 +203,8 @@ class Generator {
         }
     }
 
-    void pawns(Bitboard pieces) {
-        const Bitboard to = step_forward<us>(pieces) & targets_ & ~own_;
+    void pawns(Bitboard pieces, Bitboard allowed) {
+        const Bitboard to = step_forward<us>(pieces) & allowed & ~own_;
         sink_.pawns(to & ~last_rank<us>, to & promotion_zone<us>, us == Player::first ? 1 : -1);
     }
 
@@ -244,6 +264,13 @@ void run(const Position& position, Sink& sink) {
 MoveList legal_moves(const Position& position) {
     MoveList moves;
     List sink{moves};
+    run(position, sink);
+    return moves;
+}
+
+MoveList captures(const Position& position) {
+    MoveList moves;
+    Captures sink{moves, position.of(~position.to_play())};
     run(position, sink);
     return moves;
 }

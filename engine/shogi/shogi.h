@@ -40,10 +40,12 @@ std::span<const std::string_view> declaration_rule_names();
 std::optional<DeclarationRule> declaration_rule_from_name(std::string_view name);
 
 class Rollouts;
+class Exchanges;
 
 class Shogi {
    public:
-    using Rollouts = shogi::Rollouts;  // engine/shogi/rollouts.h
+    using Rollouts = shogi::Rollouts;    // engine/shogi/rollouts.h
+    using Exchanges = shogi::Exchanges;  // engine/shogi/exchanges.h
     static constexpr std::string_view name = "shogi";
 
     Shogi() : Shogi(Position::start()) {}

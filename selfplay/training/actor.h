@@ -162,7 +162,11 @@ class Actor {
         auto evaluator = network_->make_evaluator();
         if (settings_.symmetries)
             evaluator = std::make_unique<search::SymmetryEvaluator<G>>(std::move(evaluator), seed);
-        return std::make_unique<search::NetworkLeaf<G>>(std::move(evaluator), false);
+        typename search::NetworkLeaf<G>::Rollouts rollouts{nullptr, settings_.lambda, seed};
+        if (settings_.lambda > 0) rollouts.player = network_->make_rollouts();
+        return std::make_unique<search::NetworkLeaf<G>>(
+            std::move(evaluator), false, typename search::NetworkLeaf<G>::Temperatures{},
+            std::move(rollouts));
     }
 
     ActorSettings settings_;

@@ -29,6 +29,7 @@ struct ActorSettings {
     float gumbel_scale = 1;
     float noise_share = 0.25f, noise_alpha = 0;
     float cpuct = 1.25f, fpu_reduction = 0.25f;
+    float lambda = 0;
     bool symmetries = true;
     float temperature = 1, late_temperature = 0;
     int temperature_moves = 30;
@@ -69,6 +70,9 @@ struct ActorSettings {
             Option<S, float>{"cpuct", &S::cpuct, 0, 100, "c of PUCT"},
             Option<S, float>{"fpu-reduction", &S::fpu_reduction, -10, 10,
                              "how much worse than its parent an unvisited move is taken to be"},
+            Option<S, float>{"lambda", &S::lambda, 0, 1,
+                             "share of a game played out, in chess and shogi of captures played "
+                             "out, in a position's value; the rest is the network's"},
             Flag<S>{"symmetries", &S::symmetries, "turn the board at random for the network"},
             Option<S, float>{"temperature", &S::temperature, 0, 10,
                              "noise: of the choice among visited moves"},

@@ -253,28 +253,52 @@ TEST(Choice, PolicyTemperatureEvensThePriors) {
     EXPECT_NEAR(searched(params, "", simulations(1), lean).moves.at(0).prior, 0.6, 1e-3);
 }
 
-// The highest prior at the root, by a small network.
+// What a small network's search of one visit comes to.
+template <class G>
+Analysis asked_once(const SearchParams& params, const std::string& source, const G& game = {}) {
+    auto graph = fake::small_network<G>();
+    graph.facts.source = source;
+    Searcher<G> searcher(params);
+    searcher.set_position(game);
+    searcher.set_network(std::make_shared<NetworkSource<G>>(
+        std::make_shared<const Network>(std::move(graph), nn::Precision::fp32)));
+    return searcher.think(simulations(1));
+}
+
+// The highest prior at the root.
 template <class G>
 float most_likely(float temperature, const std::string& source = "sanban train") {
     auto params = small();
     params.policy_temperature = temperature;
-    auto graph = fake::small_network<G>();
-    graph.facts.source = source;
-    Searcher<G> searcher(params);
-    searcher.set_position(G());
-    searcher.set_network(std::make_shared<NetworkSource<G>>(
-        std::make_shared<const Network>(std::move(graph), nn::Precision::fp32)));
     float most = 0;
-    for (const auto& move : searcher.think(simulations(1)).moves) most = std::max(most, move.prior);
+    for (const auto& move : asked_once<G>(params, source).moves) most = std::max(most, move.prior);
     return most;
 }
 
 TEST(Choice, WithoutAPolicyTemperatureTheNetworkHasItsOwn) {
-    EXPECT_EQ(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1.5f));
+    EXPECT_EQ(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1.7f));
     EXPECT_EQ(most_likely<shogi::Shogi>(0), most_likely<shogi::Shogi>(1.5f));
     EXPECT_EQ(most_likely<go::Go>(0), most_likely<go::Go>(1));
     EXPECT_EQ(most_likely<chess::Chess>(0, "lc0"), most_likely<chess::Chess>(1, "lc0"));
     EXPECT_LT(most_likely<chess::Chess>(0), most_likely<chess::Chess>(1));
+}
+
+template <class G>
+float value_of(float lambda, const std::string& text, const std::string& source = "sanban train") {
+    auto params = small();
+    params.lambda = lambda;
+    return asked_once<G>(params, source, G::from_text(text)).value;
+}
+
+TEST(Choice, WithoutALambdaCapturesCountAsSuitsTheGame) {
+    const std::string queen = "4k3/8/8/8/8/8/8/Q3K3 w - - 0 1";
+    const float alone = value_of<chess::Chess>(0, queen);
+    const float captures = std::tanh(900.0f / 300);
+    EXPECT_NEAR(value_of<chess::Chess>(-1, queen), (alone + captures) / 2, 1e-4f);
+    EXPECT_EQ(value_of<chess::Chess>(-1, queen, "lc0"), alone);
+    const std::string rook = "4k4/9/9/9/9/9/9/9/4K4 b R 1";
+    EXPECT_EQ(value_of<shogi::Shogi>(-1, rook), value_of<shogi::Shogi>(0.3f, rook));
+    EXPECT_NE(value_of<shogi::Shogi>(-1, rook), value_of<shogi::Shogi>(0, rook));
 }
 
 TEST(Level, TheLowestKnowsNextToNothingAndTheHighestAll) {

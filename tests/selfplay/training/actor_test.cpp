@@ -63,6 +63,22 @@ TYPED_TEST(EveryGame, RecordsAreLegalAndTargetsSumToOne) {
     }
 }
 
+// Of a network that calls everything even, what searches expected in all.
+template <class G>
+float expected_in_all(float lambda) {
+    auto settings = small_settings();
+    settings.move_limit = 40;
+    settings.lambda = lambda;
+    float sum = 0;
+    for (const auto& record : games_of<G>(settings, 1, even<G>(), 6))
+        for (const auto& turn : record.turns) sum += std::abs(turn.value);
+    return sum;
+}
+
+TYPED_TEST(EveryGame, WithLambdaPositionsArePlayedOutBesides) {
+    EXPECT_GT(expected_in_all<TypeParam>(0.5f), 4 + 2 * expected_in_all<TypeParam>(0));
+}
+
 // Their answers differ from move to move, and are as random as the seed.
 TYPED_TEST(EveryGame, RolloutsTakeANetworksPlace) {
     auto settings = small_settings();
