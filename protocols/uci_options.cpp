@@ -60,6 +60,7 @@ constexpr std::pair<std::string_view, std::string_view> search_options[] = {
     {"DirichletNoiseEpsilon", "noise"},
     {"DirichletNoiseAlpha", "noise-alpha"},
     {"DrawScore", "draw-score"},
+    {"Lambda", "lambda"},
     {"LowerBound", "lower-bound"},
     {"Solver", "solver"},
 };

@@ -2,6 +2,7 @@
 // data, for any thread.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace search {
@@ -9,8 +10,13 @@ namespace search {
 // The name under which load_player finds the one that suits game and board.
 inline constexpr std::string_view embedded_name = "default";
 
-// The network for Go on boards from 10x10 on; "go" plays the smaller ones.
-inline constexpr std::string_view embedded_large_go = "go-13x13";
+// The networks for Go on large boards; "go" plays the smaller ones.
+struct EmbeddedGo {
+    int least_size;
+    std::string_view name;
+};
+inline constexpr std::array<EmbeddedGo, 2> embedded_large_go = {
+    {{16, "go-19x19"}, {10, "go-13x13"}}};
 
 // AlphaGo's networks for boards of 19x19: a folder of the weights.
 inline constexpr std::string_view embedded_alphago = "alphago-19x19";

@@ -20,14 +20,13 @@ namespace search {
 template <engine::Encoded G>
 std::string_view embedded_choice(const G& game, Method method) {
     if constexpr (std::is_same_v<G, go::Go>) {
-        constexpr int least_size = 7, least_large_size = 10;
+        constexpr int least_size = 7;
         if (game.size() < least_size && method == Method::automatic) return {};
-        const bool goes_by_values = method == Method::puct || method == Method::gumbel;
-        if (game.size() == 19 && !goes_by_values &&
+        if (game.size() == 19 && method == Method::alphago &&
             !embedded_weights(fmt::format("{}/policy", embedded_alphago)).empty())
             return embedded_alphago;
-        if (game.size() >= least_large_size && !embedded_weights(embedded_large_go).empty())
-            return embedded_large_go;
+        for (const auto& [size, name] : embedded_large_go)
+            if (game.size() >= size && !embedded_weights(name).empty()) return name;
     }
     return G::name;
 }

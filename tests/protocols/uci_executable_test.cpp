@@ -101,6 +101,20 @@ TEST(UciExecutable, Chess960CastlesByTakingTheOwnRook) {
                     "UCI_Chess960 must be true or false, not maybe"));
 }
 
+TEST(UciExecutable, TheShareOfCapturesIsAnOption) {
+    const auto score = [](int lambda) {
+        const auto told = talk("uci", fmt::format("setoption name Lambda value {}\nposition fen "
+                                                  "4k3/8/8/8/8/8/8/R3K3 w - - 0 1\ngo nodes 1\n",
+                                                  lambda));
+        const auto at = told.find("score cp");
+        EXPECT_NE(at, std::string::npos) << told;
+        return told.substr(at, told.find(' ', at + 9) - at);
+    };
+    EXPECT_NE(score(1), score(0));
+    EXPECT_TRUE(
+        has(talk("uci", "setoption name Lambda value 2\n"), "lambda must lie in -1..1, not 2"));
+}
+
 TEST(UciExecutable, TheRuleOfDeclaringIsAnOption) {
     const std::string position = "position sfen KRRBB4/GGGG5/SSSS5/9/9/9/9/9/4k4 b 18P4N4L 1\n";
     EXPECT_TRUE(has(talk("usi", position + "go byoyomi 20\n"), "bestmove win"));

@@ -48,34 +48,39 @@ TEST(EmbeddedWeights, TheChoiceGoesByBoardAndMethod) {
     EXPECT_EQ(choice(5, Method::automatic), "");
     EXPECT_EQ(choice(5, Method::puct), "go");
     EXPECT_EQ(choice(9, Method::automatic), "go");
-    const auto large = embedded_weights(embedded_large_go).empty() ? "go" : embedded_large_go;
+    const auto large = embedded_weights("go-13x13").empty() ? "go" : "go-13x13";
+    const auto largest = embedded_weights("go-19x19").empty() ? large : "go-19x19";
     EXPECT_EQ(choice(10, Method::automatic), large);
-    EXPECT_EQ(choice(19, Method::puct), large);
+    EXPECT_EQ(choice(15, Method::automatic), large);
+    EXPECT_EQ(choice(16, Method::automatic), largest);
+    EXPECT_EQ(choice(19, Method::automatic), largest);
+    EXPECT_EQ(choice(19, Method::puct), largest);
     EXPECT_EQ(embedded_choice(chess::Chess(), Method::automatic), "chess");
     if (embedded_weights("alphago-19x19/policy").empty())
         GTEST_SKIP() << "built without AlphaGo's networks";
-    EXPECT_EQ(choice(19, Method::automatic), embedded_alphago);
     EXPECT_EQ(choice(19, Method::alphago), embedded_alphago);
-    EXPECT_EQ(choice(18, Method::automatic), large);
+    EXPECT_EQ(choice(18, Method::alphago), largest);
 }
 
-TEST(EmbeddedWeights, BoardsFrom10x10OnHaveANetwork) {
-    const auto embedded = embedded_weights(embedded_large_go);
-    if (embedded.empty()) GTEST_SKIP() << "built without a network for large boards";
-    const auto file =
-        std::filesystem::path(SANBAN_WEIGHTS) / fmt::format("{}.safetensors", embedded_large_go);
-    EXPECT_TRUE(embedded == engine::read_file(file));
-    for (const int size : {10, 18})
+TEST(EmbeddedWeights, LargeBoardsHaveNetworksOfTheirOwn) {
+    for (const auto& [size, name] : embedded_large_go) {
+        const auto embedded = embedded_weights(name);
+        if (embedded.empty()) GTEST_SKIP() << "built without " << name;
+        const auto file =
+            std::filesystem::path(SANBAN_WEIGHTS) / fmt::format("{}.safetensors", name);
+        EXPECT_TRUE(embedded == engine::read_file(file));
         EXPECT_NE(load_player(std::string(embedded_name), nn::Precision::fp32, go::Go(size)),
                   nullptr)
             << size;
+    }
 }
 
 TEST(EmbeddedWeights, AlphaGosNetworksPlayLargeBoards) {
     if (embedded_weights("alphago-19x19/policy").empty())
         GTEST_SKIP() << "built without AlphaGo's networks";
     const go::Go game(19);
-    const auto source = load_player(std::string(embedded_name), nn::Precision::fp32, game);
+    const auto source =
+        load_player(std::string(embedded_name), nn::Precision::fp32, game, Method::alphago);
     ASSERT_NE(source, nullptr);
     EXPECT_TRUE(source->blends());
     EXPECT_NE(load_player(std::string(embedded_name), nn::Precision::fp32, go::Go(9)), nullptr);
