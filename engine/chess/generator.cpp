@@ -37,31 +37,24 @@ class ListSink {
 
 class CaptureSink {
    public:
-    CaptureSink(MoveList& list, Bitboard enemies) : list_(list), enemies_(enemies) {}
-    void from(Square from, Bitboard targets) {
-        targets &= enemies_;
-        while (targets != 0) list_.push(make_move(from, pop(targets)));
-    }
-    void pawns(int step, Bitboard targets) {
-        targets &= enemies_;
-        while (targets != 0) {
-            const Square to = pop(targets);
-            list_.push(make_move(to - step, to));
-        }
-    }
+    CaptureSink(MoveList& moves, Bitboard enemies)
+        : list_(moves), moves_(moves), enemies_(enemies) {}
+    void from(Square from, Bitboard targets) { list_.from(from, targets & enemies_); }
+    void pawns(int step, Bitboard targets) { list_.pawns(step, targets & enemies_); }
     void promoting(int step, Bitboard targets) {
         while (targets != 0) {
             const Square to = pop(targets);
-            list_.push(make_move(to - step, to, MoveKind::promotion, Piece::queen));
+            moves_.push(make_move(to - step, to, MoveKind::promotion, Piece::queen));
         }
     }
     void one(Move move) {
-        if (kind_of(move) == MoveKind::en_passant) list_.push(move);
+        if (kind_of(move) == MoveKind::en_passant) moves_.push(move);
     }
     static constexpr bool done() { return false; }
 
    private:
-    MoveList& list_;
+    ListSink list_;
+    MoveList& moves_;
     Bitboard enemies_;
 };
 

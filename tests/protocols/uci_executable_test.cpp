@@ -104,7 +104,7 @@ TEST(UciExecutable, Chess960CastlesByTakingTheOwnRook) {
 TEST(UciExecutable, TheShareOfCapturesIsAnOption) {
     const auto score = [](int lambda) {
         const auto told = talk("uci", fmt::format("setoption name Lambda value {}\nposition fen "
-                                                  "4k3/8/8/8/8/8/8/R3K3 w - - 0 1\ngo nodes 1\n",
+                                                  "4k3/8/8/8/8/8/8/R3K3 w - - 0 1\ngo nodes 20\n",
                                                   lambda));
         const auto at = told.find("score cp");
         EXPECT_NE(at, std::string::npos) << told;
