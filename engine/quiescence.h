@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <span>
 
 #include "engine/game.h"
+#include "engine/rollout.h"
 
 namespace engine {
 
@@ -34,9 +36,9 @@ class Quiescence {
     using Position = typename R::Position;
     static constexpr int infinite = 1 << 20, mate = infinite / 2;
 
-    // What the mover can make of `material`, which is the position's; -mate when it is mated.
-    static int search(const Position& position, int material) {
-        return search(position, material, -infinite, infinite, most_plies);
+    // The material that the mover can come to; -mate when it is mated.
+    static int search(const Position& position) {
+        return search(position, R::material(position), -infinite, infinite, most_plies);
     }
 
    private:
@@ -77,5 +79,18 @@ class Quiescence {
         return best;
     }
 };
+
+// The captures of a game as a playout; a finished one has its own result. `scale`: of the material
+// in the chances of winning, tanh(material / scale).
+template <Trades R, class G>
+RolloutResult play_captures(const G& game, float scale) {
+    if (const auto outcome = game.outcome(); outcome != Outcome::ongoing) return {outcome, 0, {}};
+    const int settled = Quiescence<R>::search(game.position());
+    const float value = std::tanh(static_cast<float>(settled) / scale);
+    RolloutResult result;
+    result.outcome = Outcome::ongoing;
+    result.expectation = game.to_play() == Player::first ? value : -value;
+    return result;
+}
 
 }  // namespace engine

@@ -10,7 +10,7 @@ namespace search {
 // The name under which load_player finds the one that suits game and board.
 inline constexpr std::string_view embedded_name = "default";
 
-// The networks for Go on large boards; "go" plays the smaller ones.
+// The networks for Go on large boards, the largest first; "go" plays the smaller ones.
 struct EmbeddedGo {
     int least_size;
     std::string_view name;

@@ -36,6 +36,13 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     };
     // Every leaf played out, with a player.
     struct Rollouts {
+        Rollouts() = default;
+        // None with a share of 0.
+        Rollouts(const EvaluatorSource<G>& network, float of_value, std::uint64_t random_seed)
+            : player(of_value > 0 ? network.make_rollouts() : nullptr),
+              share(of_value),
+              seed(random_seed) {}
+
         std::unique_ptr<RolloutPlayer<G>> player;
         float share = 0;  // of a value; the rest is the network's
         std::uint64_t seed = 0;

@@ -243,8 +243,7 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
                                                             : network_->policy_temperature();
     const float root = params_.root_policy_temperature;
     temperatures.root = root > 0 ? root : temperatures.elsewhere;
-    typename NetworkLeaf<G>::Rollouts rollouts{nullptr, params_.lambda, seed};
-    if (params_.lambda > 0) rollouts.player = network_->make_rollouts();
+    typename NetworkLeaf<G>::Rollouts rollouts(*network_, params_.lambda, seed);
     return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries,
                                             temperatures, std::move(rollouts));
 }

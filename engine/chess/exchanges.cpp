@@ -1,7 +1,5 @@
 #include "engine/chess/exchanges.h"
 
-#include <cmath>
-
 #include "engine/quiescence.h"
 
 namespace chess {
@@ -55,17 +53,14 @@ struct Trading {
 }  // namespace
 
 int settled_material(const Position& position) {
-    return engine::Quiescence<Trading>::search(position, Trading::material(position));
+    return engine::Quiescence<Trading>::search(position);
 }
 
 engine::RolloutResult Exchanges::play(const Chess& from, engine::Random&) const {
-    if (const auto outcome = from.outcome(); outcome != Outcome::ongoing) return {outcome, 0, {}};
     // With half of the value by a network it comes so the closest to what a strong engine says
     // (weights/training.md).
     constexpr float scale = 300;
-    const auto value = std::tanh(static_cast<float>(settled_material(from.position())) / scale);
-    const float sign = from.to_play() == Player::first ? 1.0f : -1.0f;
-    return {.outcome = Outcome::ongoing, .expectation = sign * value};
+    return engine::play_captures<Trading>(from, scale);
 }
 
 }  // namespace chess

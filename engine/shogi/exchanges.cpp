@@ -1,7 +1,5 @@
 #include "engine/shogi/exchanges.h"
 
-#include <cmath>
-
 #include "engine/quiescence.h"
 #include "engine/shogi/movegen.h"
 
@@ -51,15 +49,12 @@ struct Trading {
 }  // namespace
 
 int settled_material(const Position& position) {
-    return engine::Quiescence<Trading>::search(position, Trading::material(position));
+    return engine::Quiescence<Trading>::search(position);
 }
 
 engine::RolloutResult Exchanges::play(const Shogi& from, engine::Random&) const {
-    if (const auto outcome = from.outcome(); outcome != Outcome::ongoing) return {outcome, 0, {}};
     constexpr float scale = 1500;
-    const auto value = std::tanh(static_cast<float>(settled_material(from.position())) / scale);
-    const float sign = from.to_play() == Player::first ? 1.0f : -1.0f;
-    return {.outcome = Outcome::ongoing, .expectation = sign * value};
+    return engine::play_captures<Trading>(from, scale);
 }
 
 }  // namespace shogi

@@ -162,11 +162,9 @@ class Actor {
         auto evaluator = network_->make_evaluator();
         if (settings_.symmetries)
             evaluator = std::make_unique<search::SymmetryEvaluator<G>>(std::move(evaluator), seed);
-        typename search::NetworkLeaf<G>::Rollouts rollouts{nullptr, settings_.lambda, seed};
-        if (settings_.lambda > 0) rollouts.player = network_->make_rollouts();
-        return std::make_unique<search::NetworkLeaf<G>>(
-            std::move(evaluator), false, typename search::NetworkLeaf<G>::Temperatures{},
-            std::move(rollouts));
+        using Leaf = search::NetworkLeaf<G>;
+        return std::make_unique<Leaf>(std::move(evaluator), false, typename Leaf::Temperatures{},
+                                      typename Leaf::Rollouts(*network_, settings_.lambda, seed));
     }
 
     ActorSettings settings_;

@@ -255,7 +255,7 @@ TEST(Choice, PolicyTemperatureEvensThePriors) {
 
 // What a small network's search of one visit comes to.
 template <class G>
-Analysis asked_once(const SearchParams& params, const std::string& source, const G& game = {}) {
+Analysis asked_once(const SearchParams& params, const std::string& source, const G& game = G()) {
     auto graph = fake::small_network<G>();
     graph.facts.source = source;
     Searcher<G> searcher(params);
