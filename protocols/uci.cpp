@@ -365,7 +365,9 @@ bool Uci::tell_mate(const search::Analysis& picture) {
 }
 
 std::string Uci::info(const search::Analysis& picture, std::size_t rank) const {
-    const auto& move = picture.moves[rank];
+    auto move = picture.moves[rank];
+    // Nothing else is known of a move that the search has not tried, as after a single visit.
+    if (move.visits == 0 && !move.sure) move.value = picture.value, move.draws = picture.draws;
     const auto time = std::max<std::int64_t>(picture.elapsed.count(), 0);
     const auto rate =
         picture.simulations * 1000 / static_cast<std::uint64_t>(std::max<std::int64_t>(time, 1));

@@ -3,8 +3,7 @@
 // without a past: a repetition only makes a mate longer, so what is proved is a mate, though a
 // draw might be claimed on the way to it.
 //
-// Any game will do whose `position()` has key(), in_check(), play(move) and legal_moves(), the last
-// as a member or beside it, and in which a player in check without a legal move is mated.
+// Any game will do whose `position()` has key() and what engine/forced_mate.h asks for.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/forced_mate.h"
 #include "engine/game.h"
 #include "search/clock.h"
 #include "search/mate_table.h"
@@ -85,14 +85,6 @@ class Watch {
     std::uint64_t nodes_ = 0;
     bool over_ = false, unlimited_ = false;
 };
-
-template <class Position>
-engine::MoveList moves_of(const Position& position) {
-    if constexpr (requires { position.legal_moves(); })
-        return position.legal_moves();
-    else
-        return legal_moves(position);
-}
 
 // One kind of attack (checks only, or any moves) on one position.
 template <class Position>
@@ -199,11 +191,12 @@ auto Search<Position>::visit(const Position& position, int plies, Numbers thresh
 
 template <class Position>
 void Search<Position>::expand(const Position& position, int plies) {
-    for (const engine::Move move : moves_of(position)) {
+    // The last move must mate, so it must give check.
+    const bool must_check = attacks(plies) && (checks_only_ || plies == 1);
+    for (const engine::Move move :
+         must_check ? engine::checks_of(position) : engine::moves_of(position)) {
         Position next = position;
         next.play(move);
-        // The last move must mate, so it must give check.
-        if (attacks(plies) && (checks_only_ || plies == 1) && !next.in_check()) continue;
         children_.push_back({move, look_up(next, plies - 1)});
     }
 }
@@ -243,7 +236,7 @@ auto Search<Position>::look_up(const Position& position, int plies) const -> Fou
 // A defender not seen before: the more answers, the harder to mate.
 template <class Position>
 auto Search<Position>::defence(const Position& position, int plies) const -> Found {
-    const auto answers = static_cast<std::uint32_t>(moves_of(position).size());
+    const auto answers = static_cast<std::uint32_t>(engine::moves_of(position).size());
     if (answers == 0) return position.in_check() ? mated() : escaped(true);
     return plies == 0 ? escaped(false) : Found{{1, answers}, false};
 }
@@ -302,7 +295,7 @@ bool Search<Position>::play_longest_defence(Position& position, int& plies,
                                             std::vector<engine::Move>& line) {
     std::optional<Position> latest;
     int longest = 0;
-    for (const engine::Move move : moves_of(position)) {
+    for (const engine::Move move : engine::moves_of(position)) {
         Position next = position;
         next.play(move);
         const int left = shortest(next, plies).value_or(0);

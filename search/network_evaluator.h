@@ -245,7 +245,7 @@ class NetworkSource final : public EvaluatorSource<G> {
     static constexpr Suited suited() {
         if constexpr (G::name == "go") return {1, 0.4f};
         if constexpr (G::name == "chess") return {1.7f, 0.5f};
-        if constexpr (G::name == "shogi") return {1.5f, 0.3f};
+        if constexpr (G::name == "shogi") return {1.5f, 0.5f};
         return {1, 0};
     }
     bool ours() const { return network_->graph().facts.source.starts_with("sanban "); }

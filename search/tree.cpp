@@ -96,8 +96,9 @@ NodeId Tree::enter(Edge& edge) {
     return id;
 }
 
-void Tree::mark(NodeId id, Ending ending) {
+void Tree::mark(NodeId id, Ending ending, int plies) {
     auto unknown = Ending::unknown;
+    if (plies > 0) node(id).plies.store(static_cast<std::uint16_t>(plies), relaxed);
     node(id).ending.compare_exchange_strong(unknown, ending, relaxed);
 }
 

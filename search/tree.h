@@ -168,8 +168,8 @@ class Tree {
         for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(edges + line * 64);
     }
 
-    // What is known already stands.
-    void mark(NodeId id, Ending ending);
+    // What is known already stands. `plies`: to the end.
+    void mark(NodeId id, Ending ending, int plies = 0);
     // Forgets the end of the game there: it is to be searched all the same.
     void unmark(NodeId id);
     // The end of a path has just been marked as decided: marks what follows for those before it but

@@ -14,6 +14,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/forced_mate.h"
 #include "search/leaf.h"
 #include "search/move_filter.h"
 #include "search/noise.h"
@@ -156,6 +157,7 @@ class TreeSearch {
 
     // False when the tree is full: the value counts, but the leaf stays a leaf.
     bool absorb(Leaf<G>& leaf) {
+        if (leaf.expands && leaf.path.size() == 1) put_mate_first(leaf);
         const bool fits = !leaf.expands || tree_.expand(leaf.path.back(), leaf.moves, leaf.priors);
         leaf.value =
             std::clamp(leaf.value + leaf.draws * draw_value(leaf.game.to_play()), -1.0f, 1.0f);
@@ -280,9 +282,39 @@ class TreeSearch {
                                                                    : Ending::loss;
         // A game that may be played on is searched at the root, where a move is asked for.
         if (node == tree_.root() && !leaf.game.legal_moves().empty()) ending = Ending::none;
-        tree_.mark(node, ending);
+        int plies = 0;
+        if (ending == Ending::none && node != tree_.root())
+            if (const auto mate = near_mate(leaf.game)) {
+                ending = mate->mates ? Ending::win : Ending::loss;
+                plies = mate->plies;
+            }
+        tree_.mark(node, ending, plies);
         if (params_.solver && Node::decides(ending)) tree_.prove(leaf.path, lists_all());
         return ending;
+    }
+
+    std::optional<engine::ForcedMate> near_mate(const G& game) const {
+        if constexpr (requires { game.forced_mate(); })
+            if (params_.solver) return game.forced_mate();
+        return std::nullopt;
+    }
+
+    // At the root it takes more than to know that there is a mate: its move is tried first, however
+    // little the network thinks of it.
+    void put_mate_first(Leaf<G>& leaf) const {
+        const auto mate = near_mate(leaf.game);
+        if (!mate || !mate->mates || leaf.priors.empty()) return;
+        engine::MoveList others = leaf.moves;
+        others.filter([&](engine::Move move) { return move != mate->move; });
+        int at = 0;
+        while (leaf.moves[at] != mate->move) ++at;
+        const auto place = leaf.priors.begin() + at;
+        std::rotate(leaf.priors.begin(), place, place + 1);
+        leaf.priors[0] += 1;
+        for (float& prior : leaf.priors) prior /= 2;
+        leaf.moves.clear();
+        leaf.moves.push(mate->move);
+        for (const engine::Move move : others) leaf.moves.push(move);
     }
 
     // Whether sensible_moves() are all legal ones below the root as well.

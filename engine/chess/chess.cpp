@@ -79,6 +79,13 @@ Outcome Chess::outcome() const {
     }
 }
 
+std::optional<engine::ForcedMate> Chess::forced_mate() const {
+    constexpr int most_quiet_plies = 100;
+    const auto mate = engine::find_forced_mate(position_);
+    const bool in_time = !mate || position_.halfmove_clock() + mate->plies <= most_quiet_plies;
+    return in_time ? mate : std::nullopt;
+}
+
 void Chess::play(Move move) {
     const auto slot = static_cast<std::size_t>(position_.ply()) % past_.size();
     past_[slot] = PackedBoard(position_);

@@ -17,6 +17,7 @@
 
 #include "engine/chess/position.h"
 #include "engine/encoding.h"
+#include "engine/forced_mate.h"
 #include "engine/game.h"
 
 namespace chess {
@@ -84,6 +85,8 @@ class Chess {
     int repetitions() const { return repetitions_; }
 
     MoveList legal_moves() const { return position_.legal_moves(); }
+    // A mate by checks within three plies, if the 50 moves leave room for it.
+    std::optional<engine::ForcedMate> forced_mate() const;
     std::uint64_t key() const { return position_.key(); }
     void play(Move move);
 

@@ -58,6 +58,60 @@ class CaptureSink {
     Bitboard enemies_;
 };
 
+// Moves that attack the enemy king, or clear the way for a man that does.
+class CheckSink {
+   public:
+    CheckSink(MoveList& list, const Position& position)
+        : list_(list), position_(position), king_(position.king(~position.to_play())) {
+        const Player us = position.to_play();
+        const Bitboard bishop = bishop_attacks(king_, position.occupied()),
+                       rook = rook_attacks(king_, position.occupied());
+        from_ = {pawn_attacks(~us, king_), knight_attacks(king_), bishop, rook, bishop | rook, 0};
+        const Bitboard own = position.pieces(us), enemies = position.pieces(~us);
+        const Bitboard queens = position.pieces(us, Piece::queen);
+        Bitboard snipers =
+            (bishop_attacks(king_, enemies) & (position.pieces(us, Piece::bishop) | queens)) |
+            (rook_attacks(king_, enemies) & (position.pieces(us, Piece::rook) | queens));
+        while (snipers != 0) {
+            const Bitboard shields = between(king_, pop(snipers)) & own;
+            if (!more_than_one(shields)) uncovering_ |= shields;
+        }
+    }
+
+    void from(Square from, Bitboard targets) {
+        const bool uncovers = (uncovering_ & bit(from)) != 0;
+        targets &= from_[index(position_.piece_at(from))] | (uncovers ? ~line(king_, from) : 0);
+        while (targets != 0) list_.push(make_move(from, pop(targets)));
+    }
+    void pawns(int step, Bitboard targets) {
+        while (targets != 0) {
+            const Square to = pop(targets);
+            from(to - step, bit(to));
+        }
+    }
+    // A pawn may have stood in the way of what it becomes, or captured one that did.
+    void promoting(int step, Bitboard targets) {
+        while (targets != 0) {
+            const Square to = pop(targets);
+            for (const Piece piece : promotions)
+                one(make_move(to - step, to, MoveKind::promotion, piece));
+        }
+    }
+    void one(Move move) {
+        Position next = position_;
+        next.play(move);
+        if (next.in_check()) list_.push(move);
+    }
+    static constexpr bool done() { return false; }
+
+   private:
+    MoveList& list_;
+    const Position& position_;
+    Square king_;
+    std::array<Bitboard, piece_kinds> from_{};  // where a man of that kind would give check
+    Bitboard uncovering_ = 0;                   // alone between one of ours and the king
+};
+
 class CountSink {
    public:
     int count() const { return count_; }
@@ -252,6 +306,13 @@ MoveList Position::legal_moves() const {
 MoveList Position::captures() const {
     MoveList moves;
     CaptureSink sink(moves, pieces(~to_play_));
+    generate(*this, sink);
+    return moves;
+}
+
+MoveList Position::checks() const {
+    MoveList moves;
+    CheckSink sink(moves, *this);
     generate(*this, sink);
     return moves;
 }

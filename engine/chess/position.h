@@ -100,6 +100,8 @@ class Position {
     MoveList legal_moves() const;
     // Those of them that capture or promote to a queen.
     MoveList captures() const;
+    // Those of them that give check.
+    MoveList checks() const;
     int count_legal_moves() const;
     bool has_legal_move() const;
     // Leaves of the tree of legal moves of that depth; 1 at depth 0.

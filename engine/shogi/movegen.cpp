@@ -42,6 +42,86 @@ struct Captures {
     Bitboard enemies;
 };
 
+constexpr Bitboard between(int direction, int from, int to) {
+    return ray(direction, from) & ~ray(direction, to) & ~bit(to);
+}
+
+// Pieces of `player` that slide towards a square from which `direction` leads to them.
+template <Player player>
+Bitboard sliders(const Position& position, int direction) {
+    const Bitboard theirs = position.of(player);
+    if (direction >= 4) return theirs & (position.of(Kind::bishop) | position.of(Kind::horse));
+    const Bitboard rooks = position.of(Kind::rook) | position.of(Kind::dragon);
+    const bool lances_too = direction == (player == Player::first ? down : up);
+    return theirs & (lances_too ? rooks | position.of(Kind::lance) : rooks);
+}
+
+// Moves that attack the enemy king, or clear the way for a piece that does. None
+// attacks it before, so the piece that moves does not block its own way.
+template <Player us>
+class Checks {
+   public:
+    static constexpr bool with_drops = true;
+
+    Checks(MoveList& list, const Position& position)
+        : list_(list), position_(position), king_(position.king(~us)) {
+        const Bitboard occupied = position.occupied(), own = position.of(us);
+        const Bitboard bishop = bishop_attacks(king_, occupied),
+                       rook = rook_attacks(king_, occupied), around = king_attacks(king_);
+        from_[index(Kind::pawn)] = pawn_attacks<~us>(king_);
+        from_[index(Kind::lance)] = lance_attacks<~us>(king_, occupied);
+        from_[index(Kind::knight)] = knight_attacks<~us>(king_);
+        from_[index(Kind::silver)] = silver_attacks<~us>(king_);
+        for (const Kind kind : {Kind::gold, Kind::tokin, Kind::promoted_lance,
+                                Kind::promoted_knight, Kind::promoted_silver})
+            from_[index(kind)] = gold_attacks<~us>(king_);
+        from_[index(Kind::bishop)] = bishop;
+        from_[index(Kind::rook)] = rook;
+        from_[index(Kind::horse)] = bishop | around;
+        from_[index(Kind::dragon)] = rook | around;
+        for (int direction = 0; direction < 8; ++direction)
+            for_each(ray(direction, king_) & sliders<us>(position, direction), [&](int sniper) {
+                const Bitboard blockers = between(direction, king_, sniper) & occupied;
+                if ((blockers & (blockers - 1)) == 0) uncovering_ |= blockers & own;
+            });
+    }
+
+    void pawns(Bitboard plain, Bitboard promoting, int back) {
+        for_each(promoting, [&](int to) { single(to + back, to, true); });
+        for_each(plain, [&](int to) { single(to + back, to, false); });
+    }
+    void moves(int from, Bitboard plain, Bitboard promoting) {
+        const Kind kind = position_.at(from).kind();
+        const Bitboard always = uncovered_by(from);
+        for_each(promoting & (from_[index(promoted(kind))] | always),
+                 [&](int to) { list_.push(board_move(from, to, true)); });
+        for_each(plain & (from_[index(kind)] | always),
+                 [&](int to) { list_.push(board_move(from, to)); });
+    }
+    void drops(Kind kind, Bitboard targets) {
+        for_each(targets & from_[index(kind)], [&](int to) { list_.push(drop_move(kind, to)); });
+    }
+    static constexpr bool enough() { return false; }
+
+   private:
+    void single(int from, int to, bool promotes) {
+        moves(from, promotes ? 0 : bit(to), promotes ? bit(to) : 0);
+    }
+    // Where a piece on `from` may go for another to give check.
+    Bitboard uncovered_by(int from) const {
+        if (!has(uncovering_, from)) return 0;
+        int direction = 0;
+        while (!has(ray(direction, king_), from)) ++direction;
+        return ~ray(direction, king_);
+    }
+
+    MoveList& list_;
+    const Position& position_;
+    int king_;
+    std::array<Bitboard, kind_count> from_{};  // where a piece of that kind would give check
+    Bitboard uncovering_ = 0;                  // alone between one of ours and the king
+};
+
 struct Count {
     static constexpr bool with_drops = true;
     void pawns(Bitboard plain, Bitboard promoting, int) {
@@ -65,10 +145,6 @@ struct Any {
 
     Bitboard found = 0;
 };
-
-constexpr Bitboard between(int direction, int from, int to) {
-    return ray(direction, from) & ~ray(direction, to) & ~bit(to);
-}
 
 // The squares where a check from `checker` can be met: its own and those on the way.
 constexpr Bitboard answers_to(int king, int checker) {
@@ -136,16 +212,8 @@ class Generator {
         }
         if (targets_ != 0)
             for (int direction = 0; direction < 8; ++direction)
-                pinned_on(direction, king, ray(direction, king) & sliders(direction));
-    }
-
-    Bitboard sliders(int direction) const {
-        const Bitboard theirs = position_.of(them);
-        if (direction >= 4)
-            return theirs & (position_.of(Kind::bishop) | position_.of(Kind::horse));
-        const Bitboard rooks = position_.of(Kind::rook) | position_.of(Kind::dragon);
-        const bool lances_too = direction == (us == Player::first ? up : down);
-        return theirs & (lances_too ? rooks | position_.of(Kind::lance) : rooks);
+                pinned_on(direction, king,
+                          ray(direction, king) & sliders<them>(position_, direction));
     }
 
     void pinned_on(int direction, int king, Bitboard snipers) {
@@ -272,6 +340,26 @@ MoveList captures(const Position& position) {
     MoveList moves;
     Captures sink{moves, position.of(~position.to_play())};
     run(position, sink);
+    return moves;
+}
+
+namespace {
+
+template <Player us>
+void run_checks(const Position& position, MoveList& moves) {
+    Checks<us> sink(moves, position);
+    Generator<us, Checks<us>>(position, sink).run();
+}
+
+}  // namespace
+
+MoveList checks(const Position& position) {
+    MoveList moves;
+    if (!position.has_king(~position.to_play())) return moves;
+    if (position.to_play() == Player::first)
+        run_checks<Player::first>(position, moves);
+    else
+        run_checks<Player::second>(position, moves);
     return moves;
 }
 

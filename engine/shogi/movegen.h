@@ -11,6 +11,8 @@ namespace shogi {
 engine::MoveList legal_moves(const Position& position);
 // Those of them that capture, and pawns that promote; where a move may promote, only promoting.
 engine::MoveList captures(const Position& position);
+// Those of them that give check.
+engine::MoveList checks(const Position& position);
 // As many as legal_moves would list, in a fraction of the time.
 int count_legal_moves(const Position& position);
 bool has_legal_move(const Position& position);

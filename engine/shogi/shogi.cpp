@@ -99,10 +99,10 @@ bool Shogi::gives_check(Move move) const {
     return next.in_check();
 }
 
-MoveList Shogi::checking_moves() const {
-    auto moves = legal_moves();
-    moves.filter([this](Move move) { return gives_check(move); });
-    return moves;
+std::optional<engine::ForcedMate> Shogi::forced_mate() const {
+    const auto mate = engine::find_forced_mate(position_);
+    const bool in_time = !mate || move_limit_ == 0 || move_count() + mate->plies <= move_limit_;
+    return in_time ? mate : std::nullopt;
 }
 
 void Shogi::play(Move move) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/encoding.h"
+#include "engine/forced_mate.h"
 #include "engine/game.h"
 #include "engine/shogi/movegen.h"
 #include "engine/shogi/position.h"
@@ -65,13 +66,13 @@ class Shogi {
     bool in_check() const { return in_check_; }
     // Whether `move`, legal here, checks the other king.
     bool gives_check(Move move) const;
-    // The legal moves that give check.
-    MoveList checking_moves() const;
     // Moves played since the beginning of the game, also those before the position it was read
     // from.
     int move_count() const { return moves_before_ + plies() - 1; }
 
     Outcome outcome() const;
+    // A mate by checks within three plies, if the move limit leaves room for it.
+    std::optional<engine::ForcedMate> forced_mate() const;
     // Whether the mover may declare the game won, under a rule by points.
     bool can_declare_win() const;
     MoveList legal_moves() const;

@@ -2,9 +2,11 @@
 // Stockfish for the rest), of ordinary chess and Chess960.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 
+#include "engine/base/random.h"
 #include "engine/chess/chess.h"
 #include "engine/perft.h"
 
@@ -48,6 +50,32 @@ TEST(ChessPerft, Chess960) {
 TEST(ChessPerft, CastlingRookMayBePinned) {
     const auto game = Chess::from_text("4k3/8/8/8/8/8/8/rR2K3 w B - 0 1");
     EXPECT_FALSE(game.move_from_text("e1b1"));
+}
+
+TEST(ChessPerft, ChecksAreTheMovesThatGiveCheck) {
+    engine::Random random(7);
+    constexpr std::array starts = {
+        "startpos", "r3k2r/Pppp1ppp/1b3nbN/nP6/BBP1P3/q4N2/Pp1P2PP/R2Q1RK1 w kq - 0 1",
+        "n1n5/PPPk4/8/8/8/8/4Kppp/5N1N b - - 0 1", "8/2p5/3p4/KP5r/1R3p1k/8/4P1P1/8 w - - 0 1"};
+    int seen = 0;
+    for (int i = 0; i < 80; ++i) {
+        auto game = Chess::from_text(starts[static_cast<std::size_t>(i) % starts.size()]);
+        for (int ply = 0; ply < 100 && game.outcome() == engine::Outcome::ongoing; ++ply) {
+            const auto moves = game.legal_moves();
+            auto expected = moves;
+            expected.filter([&](Move move) {
+                Position next = game.position();
+                next.play(move);
+                return next.in_check();
+            });
+            const auto checks = game.position().checks();
+            ASSERT_EQ(checks.size(), expected.size()) << game.to_text();
+            for (int k = 0; k < checks.size(); ++k) ASSERT_EQ(checks[k], expected[k]);
+            seen += checks.size();
+            game.play(moves[random.below(moves.size())]);
+        }
+    }
+    EXPECT_GT(seen, 1000);
 }
 
 // A game that counts through engine::Game alone.

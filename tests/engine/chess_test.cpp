@@ -228,5 +228,31 @@ TEST(ChessSan, RejectsTheIllegalAndTheAmbiguous) {
     EXPECT_FALSE(move_from_san(Chess::from_text("8/P6k/8/8/8/8/8/K7 w - - 0 1").position(), "a8"));
 }
 
+TEST(Chess, NearMatesAreSeen) {
+    const auto foresight = [](std::string_view fen) { return Chess::from_text(fen).forced_mate(); };
+    EXPECT_FALSE(foresight("startpos"));
+    auto game =
+        Chess::from_text("r1bqkb1r/pppp1ppp/2n2n2/4p2Q/2B1P3/8/PPPP1PPP/RNB1K1NR w KQkq - 4 4");
+    auto mate = game.forced_mate();
+    ASSERT_TRUE(mate);
+    EXPECT_EQ(mate->plies, 1);
+    EXPECT_EQ(game.move_to_text(mate->move), "h5f7");
+    // The rook may take the first check, the king has no way out.
+    game = Chess::from_text("2r3k1/5ppp/8/8/8/8/4R3/4R2K w - - 0 1");
+    mate = game.forced_mate();
+    ASSERT_TRUE(mate);
+    EXPECT_TRUE(mate->mates);
+    EXPECT_EQ(mate->plies, 3);
+    game.play(mate->move);
+    mate = game.forced_mate();
+    ASSERT_TRUE(mate);
+    EXPECT_FALSE(mate->mates);
+    EXPECT_EQ(mate->plies, 2);
+    // With luft there is none, and after 49 moves by each side no time for it.
+    EXPECT_FALSE(foresight("2r3k1/5pp1/7p/8/8/8/4R3/4R2K w - - 0 1"));
+    EXPECT_TRUE(foresight("2r3k1/5ppp/8/8/8/8/4R3/4R2K w - - 97 90"));
+    EXPECT_FALSE(foresight("2r3k1/5ppp/8/8/8/8/4R3/4R2K w - - 98 90"));
+}
+
 }  // namespace
 }  // namespace chess

@@ -86,9 +86,13 @@ TEST(ShogiPerft, RandomGamesStaySound) {
             const Shogi before = game;
             const Move move = moves[random.below(moves.size())];
             ASSERT_EQ(game.move_from_text(game.move_to_text(move)), move);
-            const bool checks = game.gives_check(move);
+            auto checking = moves;
+            checking.filter([&](Move each) { return game.gives_check(each); });
+            const auto found = checks(game.position());
+            ASSERT_EQ(found.size(), checking.size());
+            for (int k = 0; k < found.size(); ++k) ASSERT_EQ(found[k], checking[k]);
             game.play(move);
-            ASSERT_EQ(game.in_check(), checks);
+            ASSERT_EQ(game.in_check(), checking.contains(move));
             ASSERT_EQ(game.position_before(1), before.position());
             expect_sound(game);
         }

@@ -203,9 +203,24 @@ TEST(ShogiRules, MoveLimitDraws) {
 TEST(ShogiRules, MateProblemsMayLackTheAttackersKing) {
     auto game = Shogi::from_text("8k/9/7S1/9/9/9/9/9/9 b 2G 1");
     EXPECT_EQ(game.outcome(), Outcome::ongoing);
-    EXPECT_EQ(game.checking_moves().size(), 7);
+    EXPECT_EQ(checks(game.position()).size(), 7);
     play(game, {"G*1b"});
     EXPECT_EQ(game.outcome(), Outcome::first_wins);
+}
+
+TEST(ShogiRules, NearMatesAreSeen) {
+    auto game = Shogi::from_text("8k/9/7S1/9/9/9/9/9/4K4 b 2G 1");
+    auto mate = game.forced_mate();
+    ASSERT_TRUE(mate);
+    EXPECT_TRUE(mate->mates);
+    EXPECT_EQ(mate->plies, 1);
+    game.play(mate->move);
+    EXPECT_EQ(game.outcome(), Outcome::first_wins);
+    EXPECT_FALSE(Shogi().forced_mate());
+    // The limit ends the game before the mate.
+    game = Shogi::from_text("4k4/9/4P4/9/9/9/9/9/4K4 b G 321");
+    game.set_move_limit(320);
+    EXPECT_FALSE(game.forced_mate());
 }
 
 struct Refused {

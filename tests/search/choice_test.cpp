@@ -253,16 +253,28 @@ TEST(Choice, PolicyTemperatureEvensThePriors) {
     EXPECT_NEAR(searched(params, "", simulations(1), lean).moves.at(0).prior, 0.6, 1e-3);
 }
 
-// What a small network's search of one visit comes to.
+// What a small network's search of a few visits comes to.
 template <class G>
-Analysis asked_once(const SearchParams& params, const std::string& source, const G& game = G()) {
+Analysis asked(const SearchParams& params, const std::string& source, const G& game = G(),
+               std::uint64_t visits = 1) {
     auto graph = fake::small_network<G>();
     graph.facts.source = source;
     Searcher<G> searcher(params);
     searcher.set_position(game);
     searcher.set_network(std::make_shared<NetworkSource<G>>(
         std::make_shared<const Network>(std::move(graph), nn::Precision::fp32)));
-    return searcher.think(simulations(1));
+    return searcher.think(simulations(visits));
+}
+
+TEST(Solver, ANearMateIsTriedFirstAndSeenAtOnce) {
+    const auto game = shogi::Shogi::from_text("8k/9/7+P1/4L4/9/9/9/9/4K4 b B 1");
+    const auto best = asked(small(), "sanban train", game, 2).moves.at(0);
+    EXPECT_EQ(game.move_to_text(best.move), "B*3c");
+    EXPECT_GT(best.prior, 0.5f);
+    EXPECT_EQ(best.sure, 3);
+    auto blind = small();
+    blind.solver = false;
+    EXPECT_LT(asked(blind, "sanban train", game, 2).moves.at(0).prior, 0.5f);
 }
 
 // The highest prior at the root.
@@ -271,7 +283,7 @@ float most_likely(float temperature, const std::string& source = "sanban train")
     auto params = small();
     params.policy_temperature = temperature;
     float most = 0;
-    for (const auto& move : asked_once<G>(params, source).moves) most = std::max(most, move.prior);
+    for (const auto& move : asked<G>(params, source).moves) most = std::max(most, move.prior);
     return most;
 }
 
@@ -287,7 +299,7 @@ template <class G>
 float value_of(float lambda, const std::string& text, const std::string& source = "sanban train") {
     auto params = small();
     params.lambda = lambda;
-    return asked_once<G>(params, source, G::from_text(text)).value;
+    return asked<G>(params, source, G::from_text(text)).value;
 }
 
 TEST(Choice, WithoutALambdaCapturesCountAsSuitsTheGame) {
@@ -297,7 +309,7 @@ TEST(Choice, WithoutALambdaCapturesCountAsSuitsTheGame) {
     EXPECT_NEAR(value_of<chess::Chess>(-1, queen), (alone + captures) / 2, 1e-4f);
     EXPECT_EQ(value_of<chess::Chess>(-1, queen, "lc0"), alone);
     const std::string rook = "4k4/9/9/9/9/9/9/9/4K4 b R 1";
-    EXPECT_EQ(value_of<shogi::Shogi>(-1, rook), value_of<shogi::Shogi>(0.3f, rook));
+    EXPECT_EQ(value_of<shogi::Shogi>(-1, rook), value_of<shogi::Shogi>(0.5f, rook));
     EXPECT_NE(value_of<shogi::Shogi>(-1, rook), value_of<shogi::Shogi>(0, rook));
 }
 
