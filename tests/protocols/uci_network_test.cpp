@@ -101,6 +101,8 @@ TEST(UciNetwork, VerboseStatsTellDraws) {
               path.string() + "\nsetoption name VerboseMoveStats value true\nisready\n");
     const auto text = guest.say("position startpos\ngo nodes 1\n");
     EXPECT_NE(text.find("(WL:  0.03373) (D: 0.055) (M:  0.0) "), text.npos) << text;
+    // No move has a visit of its own yet, so the move is told by the root's value.
+    EXPECT_NE(text.find(" nodes 1 score cp 5 "), text.npos) << text;
 }
 
 TEST(UciNetwork, ThePrecisionIsAnOptionOfItsOwn) {
