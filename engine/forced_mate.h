@@ -2,7 +2,7 @@
 //
 // For games in which a player in check without a legal move is mated. Their positions, which know
 // nothing of the moves before, have play(move) and in_check(), and as members or beside them
-// legal_moves(), has_legal_move() and perhaps checks(), the legal moves that give check.
+// legal_moves(), has_legal_move() and checks(), the legal moves that give check.
 #pragma once
 
 #include <optional>
@@ -35,15 +35,10 @@ Position after(const Position& position, Move move) {
 
 template <class Position>
 MoveList checks_of(const Position& position) {
-    if constexpr (requires { position.checks(); }) {
+    if constexpr (requires { position.checks(); })
         return position.checks();
-    } else if constexpr (requires { checks(position); }) {
+    else
         return checks(position);
-    } else {
-        auto moves = moves_of(position);
-        moves.filter([&](Move move) { return after(position, move).in_check(); });
-        return moves;
-    }
 }
 
 template <class Position>

@@ -173,8 +173,7 @@ auto Search<Position>::visit(const Position& position, int plies, Numbers thresh
     while (choice.numbers.win < thresholds.win && choice.numbers.loss < thresholds.loss &&
            !watch_.over()) {
         const Child child = children_[choice.best];
-        Position next = position;
-        next.play(child.move);
+        const Position next = engine::after(position, child.move);
         const Numbers own = choice.numbers, its = child.found.numbers;
         // A quarter more than the second best, or the search would go to and fro between them.
         const auto patience = choice.second_loss + choice.second_loss / 4 + 1;
@@ -194,11 +193,8 @@ void Search<Position>::expand(const Position& position, int plies) {
     // The last move must mate, so it must give check.
     const bool must_check = attacks(plies) && (checks_only_ || plies == 1);
     for (const engine::Move move :
-         must_check ? engine::checks_of(position) : engine::moves_of(position)) {
-        Position next = position;
-        next.play(move);
-        children_.push_back({move, look_up(next, plies - 1)});
-    }
+         must_check ? engine::checks_of(position) : engine::moves_of(position))
+        children_.push_back({move, look_up(engine::after(position, move), plies - 1)});
 }
 
 // A node wins by one child that loses, and loses when all of them win.
@@ -296,8 +292,7 @@ bool Search<Position>::play_longest_defence(Position& position, int& plies,
     std::optional<Position> latest;
     int longest = 0;
     for (const engine::Move move : engine::moves_of(position)) {
-        Position next = position;
-        next.play(move);
+        const Position next = engine::after(position, move);
         const int left = shortest(next, plies).value_or(0);
         if (left <= longest) continue;
         if (latest) line.pop_back();

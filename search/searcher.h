@@ -133,7 +133,7 @@ class Searcher {
     TimePoint next_event(TimePoint next_report) const;
     std::optional<Milliseconds> last_moment() const;
     bool over();
-    void complete(MoveAnalysis& move) const;
+    void complete(MoveAnalysis& move, int variation_length) const;
     void add_owners(Analysis& picture) const;
     static Milliseconds since(TimePoint start) {
         return std::chrono::duration_cast<Milliseconds>(Clock::now() - start);
@@ -342,7 +342,7 @@ Analysis Searcher<G>::analysis(int most_moves, int variation_length) const {
     picture.draws = root.draws.value();
     picture.draw_score = params_.draw_score;
     picture.moves = describe_moves(tree, search_->filter(), telling(most_moves, variation_length));
-    for (auto& move : picture.moves) complete(move);
+    for (auto& move : picture.moves) complete(move, variation_length);
     picture.fault = fault_;
     add_owners(picture);
     return picture;
@@ -361,13 +361,16 @@ Telling Searcher<G>::telling(int most_moves, int variation_length) const {
 
 // A line that ends in a mate which was seen before it was searched.
 template <engine::Game G>
-void Searcher<G>::complete(MoveAnalysis& move) const {
+void Searcher<G>::complete(MoveAnalysis& move, int variation_length) const {
     if constexpr (requires(const G& game) { game.forced_mate(); }) {
-        const auto plies = static_cast<std::size_t>(std::abs(move.sure.value_or(0)));
-        if (move.variation.size() >= plies) return;
+        const int plies = std::min(std::abs(move.sure.value_or(0)), variation_length);
+        const auto missing = [&] { return plies - static_cast<int>(move.variation.size()); };
+        if (missing() <= 0) return;
         G game(position());
         for (const Move played : move.variation) game.play(played);
-        while (const auto mate = game.forced_mate()) {
+        while (missing() > 0) {
+            const auto mate = game.forced_mate();
+            if (!mate) return;
             const Move next = mate->mates ? mate->move : game.legal_moves()[0];
             move.variation.push_back(next);
             move.variation_visits.push_back(0);

@@ -157,7 +157,7 @@ class TreeSearch {
 
     // False when the tree is full: the value counts, but the leaf stays a leaf.
     bool absorb(Leaf<G>& leaf) {
-        if (leaf.expands && leaf.path.size() == 1) put_mate_first(leaf);
+        if (leaf.expands && leaf.path.size() == 1) prefer_mate(leaf);
         const bool fits = !leaf.expands || tree_.expand(leaf.path.back(), leaf.moves, leaf.priors);
         leaf.value =
             std::clamp(leaf.value + leaf.draws * draw_value(leaf.game.to_play()), -1.0f, 1.0f);
@@ -301,20 +301,11 @@ class TreeSearch {
 
     // At the root it takes more than to know that there is a mate: its move is tried first, however
     // little the network thinks of it.
-    void put_mate_first(Leaf<G>& leaf) const {
+    void prefer_mate(Leaf<G>& leaf) const {
         const auto mate = near_mate(leaf.game);
         if (!mate || !mate->mates || leaf.priors.empty()) return;
-        engine::MoveList others = leaf.moves;
-        others.filter([&](engine::Move move) { return move != mate->move; });
-        int at = 0;
-        while (leaf.moves[at] != mate->move) ++at;
-        const auto place = leaf.priors.begin() + at;
-        std::rotate(leaf.priors.begin(), place, place + 1);
-        leaf.priors[0] += 1;
-        for (float& prior : leaf.priors) prior /= 2;
-        leaf.moves.clear();
-        leaf.moves.push(mate->move);
-        for (const engine::Move move : others) leaf.moves.push(move);
+        for (int i = 0; float& prior : leaf.priors)
+            prior = (prior + (leaf.moves[i++] == mate->move ? 1.0f : 0.0f)) / 2;
     }
 
     // Whether sensible_moves() are all legal ones below the root as well.

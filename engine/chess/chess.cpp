@@ -9,6 +9,9 @@ namespace chess {
 
 namespace {
 
+// Without a capture or a pawn's move: 50 moves of each side.
+constexpr int most_quiet_plies = 100;
+
 constexpr Bitboard king_home = bit(4) | bit(60), rooks_home = bit(0) | bit(7) | bit(56) | bit(63);
 
 // Castling rights that ordinary chess has no words for.
@@ -56,7 +59,7 @@ Ending Chess::ending() const {
         return position_.in_check() ? Ending::checkmate : Ending::stalemate;
     if (position_.insufficient_material()) return Ending::insufficient_material;
     if (repetitions_ >= 2) return Ending::threefold_repetition;
-    if (position_.halfmove_clock() >= 100) return Ending::fifty_moves;
+    if (position_.halfmove_clock() >= most_quiet_plies) return Ending::fifty_moves;
     return Ending::none;
 }
 
@@ -80,7 +83,6 @@ Outcome Chess::outcome() const {
 }
 
 std::optional<engine::ForcedMate> Chess::forced_mate() const {
-    constexpr int most_quiet_plies = 100;
     const auto mate = engine::find_forced_mate(position_);
     const bool in_time = !mate || position_.halfmove_clock() + mate->plies <= most_quiet_plies;
     return in_time ? mate : std::nullopt;

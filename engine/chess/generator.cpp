@@ -67,13 +67,10 @@ class CheckSink {
         const Bitboard bishop = bishop_attacks(king_, position.occupied()),
                        rook = rook_attacks(king_, position.occupied());
         from_ = {pawn_attacks(~us, king_), knight_attacks(king_), bishop, rook, bishop | rook, 0};
-        const Bitboard own = position.pieces(us), enemies = position.pieces(~us);
-        const Bitboard queens = position.pieces(us, Piece::queen);
-        Bitboard snipers =
-            (bishop_attacks(king_, enemies) & (position.pieces(us, Piece::bishop) | queens)) |
-            (rook_attacks(king_, enemies) & (position.pieces(us, Piece::rook) | queens));
+        // Own men are looked through: one of them in between may step aside.
+        Bitboard snipers = position.attackers(us, king_, position.pieces(~us));
         while (snipers != 0) {
-            const Bitboard shields = between(king_, pop(snipers)) & own;
+            const Bitboard shields = between(king_, pop(snipers)) & position.pieces(us);
             if (!more_than_one(shields)) uncovering_ |= shields;
         }
     }

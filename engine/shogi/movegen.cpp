@@ -46,18 +46,16 @@ constexpr Bitboard between(int direction, int from, int to) {
     return ray(direction, from) & ~ray(direction, to) & ~bit(to);
 }
 
-// Pieces of `player` that slide towards a square from which `direction` leads to them.
-template <Player player>
-Bitboard sliders(const Position& position, int direction) {
-    const Bitboard theirs = position.of(player);
-    if (direction >= 4) return theirs & (position.of(Kind::bishop) | position.of(Kind::horse));
-    const Bitboard rooks = position.of(Kind::rook) | position.of(Kind::dragon);
-    const bool lances_too = direction == (player == Player::first ? down : up);
-    return theirs & (lances_too ? rooks | position.of(Kind::lance) : rooks);
+// The squares where a check from `checker` can be met: its own and those on the way.
+constexpr Bitboard answers_to(int king, int checker) {
+    for (int direction = 0; direction < 8; ++direction)
+        if (has(ray(direction, king), checker))
+            return between(direction, king, checker) | bit(checker);
+    return bit(checker);
 }
 
-// Moves that attack the enemy king, or clear the way for a piece that does. None
-// attacks it before, so the piece that moves does not block its own way.
+// Moves that attack the enemy king, or clear the way for a piece that does. None attacks it before,
+// so the piece that moves does not block its own way.
 template <Player us>
 class Checks {
    public:
@@ -65,7 +63,7 @@ class Checks {
 
     Checks(MoveList& list, const Position& position)
         : list_(list), position_(position), king_(position.king(~us)) {
-        const Bitboard occupied = position.occupied(), own = position.of(us);
+        const Bitboard occupied = position.occupied();
         const Bitboard bishop = bishop_attacks(king_, occupied),
                        rook = rook_attacks(king_, occupied), around = king_attacks(king_);
         from_[index(Kind::pawn)] = pawn_attacks<~us>(king_);
@@ -79,11 +77,11 @@ class Checks {
         from_[index(Kind::rook)] = rook;
         from_[index(Kind::horse)] = bishop | around;
         from_[index(Kind::dragon)] = rook | around;
-        for (int direction = 0; direction < 8; ++direction)
-            for_each(ray(direction, king_) & sliders<us>(position, direction), [&](int sniper) {
-                const Bitboard blockers = between(direction, king_, sniper) & occupied;
-                if ((blockers & (blockers - 1)) == 0) uncovering_ |= blockers & own;
-            });
+        // Own pieces are looked through: one of them in between may step aside.
+        for_each(position.attackers(us, king_, position.of(~us)), [&](int sniper) {
+            const Bitboard shields = answers_to(king_, sniper) & ~bit(sniper) & position.of(us);
+            if ((shields & (shields - 1)) == 0) uncovering_ |= shields;
+        });
     }
 
     void pawns(Bitboard plain, Bitboard promoting, int back) {
@@ -146,14 +144,6 @@ struct Any {
     Bitboard found = 0;
 };
 
-// The squares where a check from `checker` can be met: its own and those on the way.
-constexpr Bitboard answers_to(int king, int checker) {
-    for (int direction = 0; direction < 8; ++direction)
-        if (has(ray(direction, king), checker))
-            return between(direction, king, checker) | bit(checker);
-    return bit(checker);
-}
-
 template <Player us, Kind kind>
 constexpr Bitboard reach(int from, Bitboard occupied) {
     if constexpr (kind == Kind::pawn) return pawn_attacks<us>(from);
@@ -212,8 +202,16 @@ class Generator {
         }
         if (targets_ != 0)
             for (int direction = 0; direction < 8; ++direction)
-                pinned_on(direction, king,
-                          ray(direction, king) & sliders<them>(position_, direction));
+                pinned_on(direction, king, ray(direction, king) & sliders(direction));
+    }
+
+    Bitboard sliders(int direction) const {
+        const Bitboard theirs = position_.of(them);
+        if (direction >= 4)
+            return theirs & (position_.of(Kind::bishop) | position_.of(Kind::horse));
+        const Bitboard rooks = position_.of(Kind::rook) | position_.of(Kind::dragon);
+        const bool lances_too = direction == (us == Player::first ? up : down);
+        return theirs & (lances_too ? rooks | position_.of(Kind::lance) : rooks);
     }
 
     void pinned_on(int direction, int king, Bitboard snipers) {

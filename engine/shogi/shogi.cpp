@@ -93,12 +93,6 @@ std::uint64_t Shogi::perft(int depth) const { return shogi::perft(position_, dep
 
 MoveList Shogi::legal_moves() const { return shogi::legal_moves(position_); }
 
-bool Shogi::gives_check(Move move) const {
-    Position next = position_;
-    next.play(move);
-    return next.in_check();
-}
-
 std::optional<engine::ForcedMate> Shogi::forced_mate() const {
     const auto mate = engine::find_forced_mate(position_);
     const bool in_time = !mate || move_limit_ == 0 || move_count() + mate->plies <= move_limit_;

@@ -64,8 +64,6 @@ class Shogi {
     const Position& position() const { return position_; }
     Player to_play() const { return position_.to_play(); }
     bool in_check() const { return in_check_; }
-    // Whether `move`, legal here, checks the other king.
-    bool gives_check(Move move) const;
     // Moves played since the beginning of the game, also those before the position it was read
     // from.
     int move_count() const { return moves_before_ + plies() - 1; }
