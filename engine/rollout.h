@@ -63,6 +63,11 @@ requires requires { typename G::Exchanges; }
 struct PlayoutsOf<G> {
     using type = typename G::Exchanges;
 };
+// Whether they are left to chance, so that another from the same position may end otherwise.
+template <class G>
+inline constexpr bool playouts_vary = !requires {
+    typename G::Exchanges;
+};
 
 // Rollouts whose policy also weighs moves for the tree: one positive weight a move, 1 where nothing
 // is known of it.

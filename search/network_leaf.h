@@ -34,17 +34,20 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     struct Temperatures {
         float root = 1, elsewhere = 1;
     };
-    // Every leaf played out, with a player.
+    // Every leaf played out, with a player, so many times that the mean is worth its share.
     struct Rollouts {
         Rollouts() = default;
         // None with a share of 0.
-        Rollouts(const EvaluatorSource<G>& network, float of_value, std::uint64_t random_seed)
+        Rollouts(const EvaluatorSource<G>& network, float of_value, int a_leaf,
+                 std::uint64_t random_seed)
             : player(of_value > 0 ? network.make_rollouts() : nullptr),
               share(of_value),
+              count(engine::playouts_vary<G> ? a_leaf : 1),
               seed(random_seed) {}
 
         std::unique_ptr<RolloutPlayer<G>> player;
         float share = 0;  // of a value; the rest is the network's
+        int count = 1;    // a leaf
         std::uint64_t seed = 0;
     };
     NetworkLeaf(std::unique_ptr<Evaluator<G>> evaluator, bool average_root,
@@ -89,8 +92,12 @@ class NetworkLeaf final : public LeafEvaluator<G> {
     }
 
     void roll_out(Leaf<G>& leaf) {
-        const auto result = rollouts_.player->play(leaf.game, random_);
-        const float played = rollout_value(leaf.game.to_play(), result);
+        float sum = 0;
+        for (int i = 0; i < rollouts_.count; ++i) {
+            const auto result = rollouts_.player->play(leaf.game, random_);
+            sum += rollout_value(leaf.game.to_play(), result);
+        }
+        const float played = sum / static_cast<float>(rollouts_.count);
         leaf.value += rollouts_.share * (played - leaf.value);
     }
 

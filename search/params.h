@@ -37,6 +37,7 @@ struct SearchParams {
     int gumbel_moves = 16;              // root moves that take part (gumbel)
     float gumbel_visits = 50, gumbel_scale = 1, gumbel_noise = 0;
     float lambda = -1;  // share of rollouts in a value, -1: what suits; not of uct
+    int rollouts = 4;   // whose mean it is a share of, a leaf (puct and gumbel, Go)
     int n_thr = 0;
     float network_share = 0.5f;
     Prior prior = Prior::supervised;
@@ -108,6 +109,9 @@ struct SearchParams {
                              "the rest is the network's; all where it has no value; -1: what "
                              "suits, half in alphago, else for networks by sanban's training what "
                              "makes them strongest"},
+            Option<P, int>{"rollouts", &P::rollouts, 1, 100,
+                           "games played out from each leaf where lambda gives them a share (Go, "
+                           "puct and gumbel)"},
             Option<P, int>{"n-thr", &P::n_thr, 0, 100'000,
                            "visits at which a leaf gets children and networks are asked (alphago); "
                            "0: as many as give networks their share; the paper: 40 at first"},

@@ -244,7 +244,7 @@ std::unique_ptr<LeafEvaluator<G>> Searcher<G>::make_leaf_evaluator(std::uint64_t
                                                             : network_->policy_temperature();
     const float root = params_.root_policy_temperature;
     temperatures.root = root > 0 ? root : temperatures.elsewhere;
-    typename NetworkLeaf<G>::Rollouts rollouts(*network_, params_.lambda, seed);
+    typename NetworkLeaf<G>::Rollouts rollouts(*network_, params_.lambda, params_.rollouts, seed);
     return std::make_unique<NetworkLeaf<G>>(std::move(cached), params_.root_symmetries,
                                             temperatures, std::move(rollouts));
 }
@@ -279,8 +279,8 @@ void Searcher<G>::set_params(const SearchParams& given) {
     if (old.draw_score != params.draw_score) search_->set_root(G(position()));
     const auto workers = [](const SearchParams& of) {
         return std::tuple(of.threads, of.seed, of.batch, of.root_symmetries, of.policy_temperature,
-                          of.root_policy_temperature, of.lambda, of.alphago_temperature, of.n_thr,
-                          of.network_share);
+                          of.root_policy_temperature, of.lambda, of.rollouts,
+                          of.alphago_temperature, of.n_thr, of.network_share);
     };
     if (workers(old) != workers(params)) hire();
 }

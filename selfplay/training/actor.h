@@ -163,8 +163,9 @@ class Actor {
         if (settings_.symmetries)
             evaluator = std::make_unique<search::SymmetryEvaluator<G>>(std::move(evaluator), seed);
         using Leaf = search::NetworkLeaf<G>;
-        return std::make_unique<Leaf>(std::move(evaluator), false, typename Leaf::Temperatures{},
-                                      typename Leaf::Rollouts(*network_, settings_.lambda, seed));
+        return std::make_unique<Leaf>(
+            std::move(evaluator), false, typename Leaf::Temperatures{},
+            typename Leaf::Rollouts(*network_, settings_.lambda, settings_.rollouts, seed));
     }
 
     ActorSettings settings_;

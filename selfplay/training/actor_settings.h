@@ -30,6 +30,7 @@ struct ActorSettings {
     float noise_share = 0.25f, noise_alpha = 0;
     float cpuct = 1.25f, fpu_reduction = 0.25f;
     float lambda = 0;
+    int rollouts = 4;
     bool symmetries = true;
     float temperature = 1, late_temperature = 0;
     int temperature_moves = 30;
@@ -73,6 +74,8 @@ struct ActorSettings {
             Option<S, float>{"lambda", &S::lambda, 0, 1,
                              "share of a game played out, in chess and shogi of captures played "
                              "out, in a position's value; the rest is the network's"},
+            Option<S, int>{"rollouts", &S::rollouts, 1, 100,
+                           "Go: games played out from a position where lambda gives them a share"},
             Flag<S>{"symmetries", &S::symmetries, "turn the board at random for the network"},
             Option<S, float>{"temperature", &S::temperature, 0, 10,
                              "noise: of the choice among visited moves"},

@@ -302,6 +302,10 @@ float value_of(float lambda, const std::string& text, const std::string& source 
     return asked<G>(params, source, G::from_text(text)).value;
 }
 
+// Captures played out again say the same again.
+static_assert(engine::playouts_vary<go::Go> && !engine::playouts_vary<chess::Chess> &&
+              !engine::playouts_vary<shogi::Shogi>);
+
 TEST(Choice, WithoutALambdaCapturesCountAsSuitsTheGame) {
     const std::string queen = "4k3/8/8/8/8/8/8/Q3K3 w - - 0 1";
     const float alone = value_of<chess::Chess>(0, queen);

@@ -24,6 +24,19 @@ class FirstWins final : public RolloutPlayer<TicTacToe> {
     void weigh(const TicTacToe&, const engine::MoveList&, std::vector<float>&) const override {}
 };
 
+// Games of which three in four, in turn, are the first player's.
+class ThreeOfFour final : public RolloutPlayer<TicTacToe> {
+   public:
+    engine::RolloutResult play(const TicTacToe&, engine::Random&) override {
+        const bool first = ++played_ % 4 != 0;
+        return {first ? engine::Outcome::first_wins : engine::Outcome::second_wins, 0, {}, {}};
+    }
+    void weigh(const TicTacToe&, const engine::MoveList&, std::vector<float>&) const override {}
+
+   private:
+    int played_ = 0;
+};
+
 class Source final : public EvaluatorSource<TicTacToe> {
    public:
     explicit Source(Answer answer) : answer_(std::move(answer)) {}
@@ -34,6 +47,7 @@ class Source final : public EvaluatorSource<TicTacToe> {
         return made;
     }
     std::unique_ptr<RolloutPlayer<TicTacToe>> make_rollouts() const override {
+        if (mixed) return std::make_unique<ThreeOfFour>();
         return std::make_unique<FirstWins>();
     }
     float rollout_share() const override { return share; }
@@ -43,6 +57,7 @@ class Source final : public EvaluatorSource<TicTacToe> {
     int policy_index(const TicTacToe&, engine::Move move) const override { return move.code; }
 
     float share = 0;
+    bool mixed = false;                           // how games played out end
     std::vector<std::size_t>* batches = nullptr;  // gets how many were asked about at once
 
    private:
@@ -109,6 +124,21 @@ TEST(Puct, LeavesArePlayedOutAsSuitsTheNetworkUnlessToldOtherwise) {
     EXPECT_NEAR(blended_value(0.25f, -1, "5"), 0.75f * 0.4f - 0.25f, 1e-6f);
     EXPECT_NEAR(blended_value(0.25f, 0, ""), 0.4f, 1e-6f);
     EXPECT_NEAR(blended_value(0, 1, "5"), -1, 1e-6f);
+}
+
+TEST(Puct, TheMeanOfALeafsRolloutsCounts) {
+    const auto source = std::make_shared<Source>(even);
+    source->mixed = true;
+    for (const auto& [rollouts, mean] : {std::pair(1, 1.0f), std::pair(4, 0.5f)}) {
+        auto params = small();
+        params.lambda = 0.5f;
+        params.rollouts = rollouts;
+        Searcher<TicTacToe> searcher(params);
+        searcher.set_network(source);
+        Limits limits;
+        limits.simulations = 1;
+        EXPECT_NEAR(searcher.think(limits).value, 0.5f * mean, 1e-6f) << rollouts;
+    }
 }
 
 // With equal values, visits follow the priors.
