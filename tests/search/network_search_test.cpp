@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "search/searcher.h"
 #include "tests/search/fake_network.h"
@@ -74,16 +75,21 @@ SearchParams small() {
     return params;
 }
 
-Analysis searched(const SearchParams& params, std::string_view moves, std::uint64_t count,
-                  const Answer& answer = even, float share = 0) {
+Analysis searched_by(std::shared_ptr<const Source> source, const SearchParams& params,
+                     std::string_view moves, std::uint64_t count) {
     Searcher<TicTacToe> searcher(params);
-    const auto source = std::make_shared<Source>(answer);
-    source->share = share;
-    searcher.set_network(source);
+    searcher.set_network(std::move(source));
     searcher.set_position(TicTacToe::from_text(moves));
     Limits limits;
     limits.simulations = count;
     return searcher.think(limits);
+}
+
+Analysis searched(const SearchParams& params, std::string_view moves, std::uint64_t count,
+                  const Answer& answer = even, float share = 0) {
+    const auto source = std::make_shared<Source>(answer);
+    source->share = share;
+    return searched_by(source, params, moves, count);
 }
 
 Move cell(int number) { return {static_cast<std::uint16_t>(number - 1)}; }
@@ -133,11 +139,7 @@ TEST(Puct, TheMeanOfALeafsRolloutsCounts) {
         auto params = small();
         params.lambda = 0.5f;
         params.rollouts = rollouts;
-        Searcher<TicTacToe> searcher(params);
-        searcher.set_network(source);
-        Limits limits;
-        limits.simulations = 1;
-        EXPECT_NEAR(searcher.think(limits).value, 0.5f * mean, 1e-6f) << rollouts;
+        EXPECT_NEAR(searched_by(source, params, "", 1).value, 0.5f * mean, 1e-6f) << rollouts;
     }
 }
 
