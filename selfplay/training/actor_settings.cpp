@@ -7,7 +7,7 @@
 namespace selfplay::training {
 
 void check(const ActorSettings& settings) {
-    if (settings.fast_simulations > settings.simulations)
+    if (settings.full_share < 1 && settings.fast_simulations > settings.simulations)
         engine::fail("fast-simulations ({}) must not exceed simulations ({})",
                      settings.fast_simulations, settings.simulations);
     if (settings.least_size > settings.size)

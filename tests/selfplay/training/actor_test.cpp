@@ -310,7 +310,11 @@ TEST(Actor, ANewNetworkTakesOverBetweenAnswers) {
 
 TEST(Actor, RefusesSettingsThatDoNotFit) {
     auto settings = small_settings();
-    settings.fast_simulations = 9;
+    settings.fast_simulations = settings.simulations + 1;
+    settings.full_share = 1;  // then no search is fast
+    EXPECT_NO_THROW(check(settings));
+    settings.full_share = 0.5;
+    EXPECT_THROW(check(settings), engine::Error);
     EXPECT_THROW(games_of<go::Go>(settings, 1, even<go::Go>(), 1), engine::Error);
     settings = small_settings();
     settings.least_size = 6;
